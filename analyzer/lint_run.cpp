@@ -13,6 +13,7 @@
 #include "analyzer/fixing/program_fixing.h"
 #include "analyzer/input/files.h"
 #include "analyzer/selection/run_report.h"
+#include "analyzer/selection/verified.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/process.h"
 #include "interpreter/system/system_texts.h"
@@ -40,6 +41,7 @@ LintRun::LintRun(const LintCommandOptions& options, const formats::ReportStyle& 
       settings_(std::move(programs.settings)),
       renderer_(std::move(renderer)),
       jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+      scenes_(style.language),
       progress_(command_line::terminal_writer(), input::bytes_of(files_)),
       output_(options) {}
 
@@ -70,6 +72,10 @@ bool LintRun::show_all() {
   const auto workers = std::min<std::size_t>(static_cast<std::size_t>(jobs_), files_.size());
   check::side_by_side(static_cast<int>(workers), [this] { work(); });
   progress_.clear();
+  for (const std::string& mistake : scenes_.mistakes(style_.language)) {
+    std::cerr << mistake << '\n';
+    failed_ = true;
+  }
   renderer_->end(output_.buffer());
   if (!output_.finish()) return false;
   if (program_.flush() == 0) return true;
@@ -125,9 +131,20 @@ CheckedFile LintRun::check(const std::filesystem::path& path, const selection::P
     checked.report = selection::shown_report(std::move(found), text, settings.selection, filter);
     return checked;
   }
-  const auto run = simulation::outcome_of_run(text, {.setup = settings.machine.setup}, settings.machine.timed);
-  checked.report = selection::shown_report_with_run(std::move(found), run, text, settings.selection, filter);
+  checked.report = verified(std::move(found), checked, filter);
   return checked;
+}
+
+/// What a check has found, with what a run on the machine shows.
+check::Report LintRun::verified(check::Report found, const CheckedFile& checked,
+                                const selection::FindingFilter& filter) {
+  const std::string_view text = checked.text();
+  const selection::ProgramSettings& settings = checked.settings;
+  const auto scene = scenes_.of(settings.configuration, checked.name);
+  const int jobs = jobs_for(text);
+  const auto together = [jobs](const std::function<void()>& work) { check::side_by_side(jobs, work); };
+  const verification::VerifiedRun run = selection::verified(text, settings, scene.get(), {.together = together});
+  return selection::shown_report_with_run(std::move(found), run.outcome, text, settings.selection, filter);
 }
 
 void LintRun::fix(CheckedFile& checked) const {

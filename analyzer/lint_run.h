@@ -22,6 +22,7 @@
 #include "analyzer/selection/baseline.h"
 #include "analyzer/selection/program_settings.h"
 #include "interpreter/command_line/progress.h"
+#include "interpreter/configuration/scenes.h"
 #include "interpreter/system/exit_status.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/source_file.h"
@@ -72,6 +73,7 @@ class LintRun {
   CheckedFile check(const std::filesystem::path& path, const selection::ProgramSettings& settings);
   void fix(CheckedFile& checked) const;
   int jobs_for(std::string_view text) const;
+  check::Report verified(check::Report found, const CheckedFile& checked, const selection::FindingFilter& filter);
   check::Report without_known(check::Report report, const std::string& name, std::string_view text) const;
   void show(const CheckedFile& checked);
   void show_difference(const CheckedFile& checked);
@@ -83,6 +85,7 @@ class LintRun {
   const std::vector<std::reference_wrapper<const selection::ProgramSettings>> settings_;
   std::unique_ptr<formats::Renderer> renderer_;
   const int jobs_;
+  configuration::Scenes scenes_;
   Filter filter_;
   command_line::Progress progress_;
   std::atomic<std::size_t> next_ = 0;

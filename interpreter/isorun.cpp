@@ -15,6 +15,7 @@
 #include "interpreter/command_line/progress.h"
 #include "interpreter/command_line/source_options.h"
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/configuration/scenes.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/plot/page_template.h"
@@ -31,6 +32,7 @@
 #include "interpreter/system/terminal.h"
 #include "interpreter/system/user_language.h"
 #include "interpreter/text/unicode.h"
+#include "interpreter/verification/verification_report.h"
 
 namespace isocnc::interpreter {
 namespace {
@@ -208,6 +210,7 @@ struct CheckedRun {
   std::string_view program;
   check::Report report;
   const rules::CheckSetup& setup;
+  const std::optional<verification::Certificate>& certificate;
 };
 
 /// Prints those findings that the summary does not tell, and those that make the run fail.
@@ -244,6 +247,7 @@ std::string shown_findings(const RunCommandOptions& options, const CheckedRun& r
   renderer->begin(output.buffer());
   renderer->file({options.shown_file(), run.program, run.report, run.setup}, output);
   renderer->end(output.buffer());
+  if (run.certificate && !options.json) output.buffer() += in_words(*run.certificate, options.reader_language()) + '\n';
   return output.take();
 }
 
@@ -295,6 +299,7 @@ struct RunSettings {
   std::filesystem::path configuration;  ///< Path of the isocnc.json; empty without one.
   selection::Selection selection;
   rules::CheckSetup setup;
+  std::shared_ptr<const verification::Scene> scene;  ///< Null if nothing is known of what surrounds the program.
 };
 
 /// Runs the program with a progress bar on the terminal.
@@ -325,12 +330,11 @@ ExitStatus run_program(std::string_view program, const RunCommandOptions& option
   bool has_errors = false;
   if (report.is_ready()) {
     const running::RunResult result = run_with_progress(program, run_options, outputs, report);
-    report.end_run();
-    const CheckedRun checked{
-        program, selection::shown_run_report(report.findings().outcome(program, result), program, settings.selection),
-        settings.setup};
+    const verification::VerifiedRun verified = report.end_run(program, result);
+    const CheckedRun checked{program, selection::shown_run_report(verified.outcome, program, settings.selection),
+                             settings.setup, verified.certificate};
     const bool shows_with_summary = options.verify && report.has_summary();
-    report.finish(result, shows_with_summary ? shown_findings(options, checked) : "");
+    report.finish(result, verified, shows_with_summary ? shown_findings(options, checked) : "");
     if (options.verify && !shows_with_summary) std::cerr << shown_findings(options, checked);
     if (!options.verify) print_findings(options, checked);
     const bool is_stopped = result.ending == running::Ending::Error;
@@ -394,7 +398,14 @@ std::optional<RunSettings> find_settings(RunCommandOptions& options) {
     }
   if (!is_right) return std::nullopt;
   const selection::ProgramSettings& settings = finder.of(program);
-  return RunSettings{machine.machine, configuration.file, settings.selection, settings.setup};
+  configuration::Configuration surrounded = configuration;
+  surrounded.machine = machine.machine;
+  configuration::Scenes scenes(options.reader_language());
+  RunSettings found_settings{machine.machine, configuration.file, settings.selection, settings.setup,
+                             options.restart_at ? nullptr : scenes.of(surrounded, program)};
+  const std::vector<std::string> mistakes = scenes.mistakes(options.reader_language());
+  for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
+  return mistakes.empty() ? std::optional(std::move(found_settings)) : std::nullopt;
 }
 
 plot::PlotSubject plot_subject(std::string_view program, const configuration::MachineConfiguration& machine,
@@ -433,6 +444,8 @@ ExitStatus run_file(RunCommandOptions options) {
   const auto& source = std::get<system::SourceFile>(opened);
   if (restart_options) return restart(source, options, *restart_options);
   outputs->subject = plot_subject(source.text(), machine, options);
+  outputs->subject.scene = found->scene;
+  if (found->scene) outputs->subject.origin = verification::first_workpiece_origin(source.text(), *run_options);
   return run_program(source.text(), options, *run_options, *outputs, *found);
 }
 

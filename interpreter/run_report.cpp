@@ -2,15 +2,23 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analyzer/check/side_by_side.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/system_texts.h"
+#include "interpreter/verification/verification_report.h"
 
 namespace isocnc::interpreter {
+
+/// Runs work on all processors.
+static void work_together(const std::function<void()>& work) {
+  check::side_by_side(std::max(1, static_cast<int>(std::thread::hardware_concurrency())), work);
+}
 
 RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& machine)
     : outputs_(outputs),
@@ -19,9 +27,9 @@ RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& 
       trace_(open(outputs.trace, trace_file_)),
       samples_(open(outputs.samples, samples_file_)),
       summary_(machine),
-      timing_(machine,
-              {.event = [this](const simulation::TimedEvent& timed) { take(timed); },
-               .stretch = [this](const motion::Stretch& stretch, const simulation::TimedEvent&) { take(stretch); }}),
+      timing_(machine, {.event = [this](const simulation::TimedEvent& timed) { take(timed); },
+                        .stretch = [this](const motion::Stretch& stretch,
+                                          const simulation::TimedEvent& timed) { take(stretch, timed); }}),
       findings_(machine),
       compensation_(machine),
       compensated_{.event = [this](const running::Event& event) { timing_.take(event); },
@@ -31,6 +39,8 @@ RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& 
                          findings_.take(warning);
                        }} {
   open(outputs.plot, plot_file_);
+  const plot::PlotSubject& subject = outputs.subject;
+  if (subject.scene) verifier_.emplace(*subject.scene, machine, subject.origin, work_together);
   if (const auto format = plot::plot_format(outputs.plot)) plot_.emplace(*format, outputs.subject, machine);
   last_sample_.tip = timing_.tip();
   last_sample_.joints = timing_.joints();
@@ -53,6 +63,7 @@ void RunReport::close(system::OutputFile& output, const std::string& name) {
 void RunReport::take(const simulation::TimedEvent& timed) {
   summary_.add(timed);
   if (timed.move) findings_.take(timed.event.line, *timed.move);
+  if (verifier_) verifier_->take(timed);
   if (plot_) plot_->add(timed);
   if (trace_ != nullptr) trace_->write(to_json(timed, machine_) + '\n');
   if (samples_ == nullptr || !std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
@@ -61,7 +72,8 @@ void RunReport::take(const simulation::TimedEvent& timed) {
   last_sample_.tip = timing_.tip();
 }
 
-void RunReport::take(const motion::Stretch& stretch) {
+void RunReport::take(const motion::Stretch& stretch, const simulation::TimedEvent& timed) {
+  if (verifier_) verifier_->take(stretch, timed);
   if (plot_) plot_->add(stretch);
   if (samples_ == nullptr) return;
   sample_rest(stretch.start);
@@ -102,21 +114,30 @@ void RunReport::write(const motion::Sample& sample) {
       joints[4], sample.speed));
 }
 
-void RunReport::end_run() {
+verification::VerifiedRun RunReport::end_run(std::string_view text, const running::RunResult& result) {
   compensation_.finish(compensated_);
   timing_.finish();
   sort_warnings();
+  simulation::RunOutcome outcome = findings_.outcome(text, result);
+  if (!verifier_) return {.outcome = std::move(outcome)};
+  return verification::verified_outcome(std::move(outcome), *verifier_, text, result);
 }
 
-std::string RunReport::summary(const std::string& shown_findings) const {
+std::string RunReport::summary(const verification::VerifiedRun& verified, const std::string& shown_findings) const {
   if (!outputs_.json) return shown_findings + summary_.text(outputs_.language);
   std::string json = summary_.json(outputs_.program_name, outputs_.language);
-  if (shown_findings.empty()) return json;
+  if (!verified.certificate && shown_findings.empty()) return json;
   json.resize(json.rfind('}'));
-  return fmt::format("{},\"findings\":{}}}\n", json, nlohmann::ordered_json::parse(shown_findings).dump());
+  if (verified.certificate)
+    json += fmt::format(",\"verification\":{}",
+                        to_json(verified.contacts, *verified.certificate, outputs_.language).dump());
+  if (!shown_findings.empty())
+    json += fmt::format(",\"findings\":{}", nlohmann::ordered_json::parse(shown_findings).dump());
+  return json + "}\n";
 }
 
-void RunReport::finish(const running::RunResult& result, const std::string& shown_findings) {
+void RunReport::finish(const running::RunResult& result, const verification::VerifiedRun& verified,
+                       const std::string& shown_findings) {
   if (samples_ != nullptr) {
     sample_rest(timing_.time());
     last_sample_.time = timing_.time();
@@ -124,11 +145,11 @@ void RunReport::finish(const running::RunResult& result, const std::string& show
     write(last_sample_);
   }
   summary_.finish(result, timing_.time(), timing_.joints(), warnings_);
-  if (has_summary()) standard_output_.write(summary(shown_findings));
+  if (has_summary()) standard_output_.write(summary(verified, shown_findings));
   if (trace_file_) close(*trace_file_, outputs_.trace);
   if (samples_file_) close(*samples_file_, outputs_.samples);
   if (plot_) {
-    plot_->write(*plot_file_, result);
+    plot_->write(*plot_file_, {result, verified});
     close(*plot_file_, outputs_.plot);
   }
   close(standard_output_, "<stdout>");

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "interpreter/dialect/diagnostic.h"
@@ -10,6 +12,7 @@
 #include "interpreter/simulation/run_findings.h"
 #include "interpreter/simulation/summary.h"
 #include "interpreter/system/output_file.h"
+#include "interpreter/verification/verified_run.h"
 
 namespace isocnc::interpreter {
 
@@ -19,7 +22,7 @@ struct RunOutputs {
   std::string samples;
   double sample_seconds = 0.01;
   std::string plot;
-  plot::PlotSubject subject;  ///< Subject of the plot.
+  plot::PlotSubject subject;  ///< Subject of the plot, and what surrounds the program.
   bool json = false;          ///< Whether the summary is JSON.
   std::string program_name;
   dialect::Language language = dialect::Language::English;
@@ -37,13 +40,12 @@ class RunReport {
     findings_.take(event);
     compensation_.take(event, compensated_);
   }
-  /// Ends the run. findings() is then complete.
-  void end_run();
-  /// What the run has shown.
-  const simulation::RunFindings& findings() const { return findings_; }
+  /// Ends the run, and returns what it has shown. `text` is that of the program.
+  verification::VerifiedRun end_run(std::string_view text, const running::RunResult& result);
   /// Writes the rest, after end_run(). problems() then lists the failed outputs. `shown_findings` are shown with the
   /// summary, in its format: text before it, or the JSON array that is its last member; empty for none.
-  void finish(const running::RunResult& result, const std::string& shown_findings);
+  void finish(const running::RunResult& result, const verification::VerifiedRun& verified,
+              const std::string& shown_findings);
   /// Whether the summary is written, and with it the findings.
   bool has_summary() const { return outputs_.trace != "-" && outputs_.samples != "-"; }
   const std::vector<std::string>& problems() const { return problems_; }
@@ -52,9 +54,9 @@ class RunReport {
   system::OutputFile* open(const std::string& name, std::optional<system::OutputFile>& file);
   void close(system::OutputFile& output, const std::string& name);
   void take(const simulation::TimedEvent& timed);
-  void take(const motion::Stretch& stretch);
+  void take(const motion::Stretch& stretch, const simulation::TimedEvent& timed);
   void sort_warnings();
-  std::string summary(const std::string& shown_findings) const;
+  std::string summary(const verification::VerifiedRun& verified, const std::string& shown_findings) const;
   void sample_rest(double until);
   void write(const motion::Sample& sample);
 
@@ -73,6 +75,7 @@ class RunReport {
   motion::Sample last_sample_;
   simulation::Timing timing_;
   simulation::RunFindings findings_;
+  std::optional<verification::Verifier> verifier_;
   std::vector<simulation::RunWarning> warnings_;
   simulation::Compensation compensation_;
   simulation::Compensation::Listeners compensated_;

@@ -33,6 +33,7 @@ struct LocatedFinding {
   std::int32_t repetitions = -1;              ///< An index into Report::repetitions; -1: none.
   std::optional<dialect::Severity> selected;  ///< The severity that a selection has set.
   bool is_of_run = false;                     ///< Whether only a run on the machine shows it.
+  std::optional<std::size_t> last_line;       ///< Of a run's finding: where it ends, if on another line; from 0.
 
   dialect::Severity severity() const { return selected.value_or(dialect::definition(finding.id).severity); }
 

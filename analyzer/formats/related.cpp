@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "interpreter/dialect/format.h"
 #include "interpreter/syntax/tree_store.h"
 #include "interpreter/text/characters.h"
 
@@ -93,6 +94,22 @@ std::optional<RelatedPlace> RelatedPlaces::of(const check::LocatedFinding& locat
   }
   bytes_left_ -= std::min(bytes_left_, walked);
   return place;
+}
+
+std::vector<RunPlace> run_places(const check::LocatedFinding& located, dialect::Language language) {
+  static constexpr dialect::Text kLasts = {"it lasts until here", "dura fino a qui"};
+  static constexpr dialect::Text kDescribed = {"{} is described here", "{} è descritto qui"};
+  std::vector<RunPlace> places;
+  if (located.last_line)
+    places.push_back({.file = {}, .line = *located.last_line + 1, .note = std::string(kLasts.in(language))});
+  if (const dialect::GivenPlace described = located.finding.described) {
+    const dialect::FilePlace& place = described.place();
+    places.push_back({.file = place.file,
+                      .line = place.line + 1,
+                      .column = place.column + 1,
+                      .note = dialect::format(kDescribed, language, located.finding.names.back().in(language))});
+  }
+  return places;
 }
 
 }  // namespace isocnc::formats

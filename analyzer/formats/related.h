@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "analyzer/check/report.h"
 #include "interpreter/dialect/diagnostic.h"
@@ -31,5 +33,16 @@ class RelatedPlaces {
   std::string_view text_;
   std::size_t bytes_left_ = 64'000'000;  // The bytes that all searches together may still read.
 };
+
+/// Another place that belongs to a finding of a run: where a contact ends, and where a configuration describes what is
+/// hit.
+struct RunPlace {
+  std::string_view file;   ///< As shown to users; empty for the program.
+  std::size_t line = 1;    ///< From 1.
+  std::size_t column = 1;  ///< From 1.
+  std::string note;        ///< What is there.
+};
+
+std::vector<RunPlace> run_places(const check::LocatedFinding& located, dialect::Language language);
 
 }  // namespace isocnc::formats

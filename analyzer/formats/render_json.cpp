@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analyzer/fixing/finding_fixes.h"
+#include "analyzer/formats/related.h"
 #include "analyzer/formats/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
 
@@ -56,6 +57,11 @@ class JsonRenderer final : public Renderer {
       object["lastLine"] = repetitions.back().line + 1;
     }
     if (located.is_of_run) object["source"] = "run";
+    for (const RunPlace& place : run_places(located, style_.language))
+      object["related"].push_back({{"file", place.file.empty() ? name : place.file},
+                                   {"line", place.line},
+                                   {"column", place.column},
+                                   {"text", place.note}});
     return object;
   }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analyzer/fixing/finding_fixes.h"
+#include "analyzer/formats/related.h"
 #include "analyzer/formats/renderers.h"
 #include "analyzer/formats/sarif_log.h"
 #include "analyzer/selection/fingerprint.h"
@@ -54,7 +55,7 @@ class SarifRenderer final : public Renderer {
           fmt::format("{:016x}:{}", print.line_hash, print.occurrence);
       if (located.path >= 0) object["codeFlows"] = code_flows(located, program.report, steps, shown, artifact);
       if (located.repetitions >= 0) add_repetitions(located, program.report, lines, artifact, object);
-      if (located.is_of_run) object["properties"]["source"] = "run";
+      if (located.is_of_run) add_run(located, artifact, object);
       if (const std::optional<fixes::Fix> fix = fixes.offered_in_full(located))
         object["fixes"] = OrderedJson::array({fix_of(*fix, fixes, artifact)});
       log_.add_result(dumped(object), output.buffer());
@@ -131,6 +132,28 @@ class SarifRenderer final : public Renderer {
     add(repetitions.back());
     object["relatedLocations"] = places;
     object["properties"] = {{"repeats", repetitions.size()}, {"lastLine", repetitions.back().line + 1}};
+  }
+
+  /// What a run has shown: the numbers of the message, the bodies, and the other places.
+  void add_run(const check::LocatedFinding& located, const OrderedJson& artifact, OrderedJson& object) const {
+    OrderedJson& properties = object["properties"];
+    properties["source"] = "run";
+    const auto& [body, obstacle] = located.finding.names;
+    if (obstacle != dialect::GivenName()) {
+      properties["body"] = body.in(style_.language);
+      properties["obstacle"] = obstacle.in(style_.language);
+      const dialect::DiagnosticDef& def = dialect::definition(located.finding.id);
+      for (std::size_t i = 0; i < std::size(def.arguments); ++i)
+        properties[std::string(def.arguments[i])] = located.finding.values[i];
+    }
+    for (const RunPlace& place : run_places(located, style_.language)) {
+      OrderedJson in_file = artifact;
+      if (!place.file.empty()) in_file = {{"uri", uri_of(place.file)}};
+      object["relatedLocations"].push_back(
+          {{"physicalLocation",
+            {{"artifactLocation", in_file}, {"region", {{"startLine", place.line}, {"startColumn", place.column}}}}},
+           {"message", {{"text", place.note}}}});
+    }
   }
 
   OrderedJson fix_of(const fixes::Fix& fix, fixing::FindingFixes& fixes, const OrderedJson& artifact) const {

@@ -105,6 +105,7 @@ class TextRenderer final : public Renderer {
     append(out, {margin, " ", blue, "|", reset, " ", underline(excerpt, finding, color), "\n"});
     append(out, {margin, " ", blue, "=", reset, " ", dialect::first_sentence(shown.def.explanation.in(style_.language)),
                  "\n"});
+    for (const RunPlace& place : run_places(located, style_.language)) beside(place, name, margin, out);
     if (located.path >= 0) path(steps, report.paths[static_cast<std::size_t>(located.path)], margin, out);
   }
 
@@ -135,6 +136,13 @@ class TextRenderer final : public Renderer {
                    begin - 1 + (excerpt.cut_left ? 3 : 0), paint(kBlue), "", end - begin,
                    place.note.in(style_.language), paint(kReset));
     if (place.line + 1 < line) fmt::format_to(to, "{}...{}\n", paint(kBlue), paint(kReset));
+  }
+
+  /// Prints another place of the finding.
+  void beside(const RunPlace& place, std::string_view name, std::string_view margin, std::string& out) const {
+    const std::string file = place.file.empty() ? std::string(name) : printable(place.file);
+    fmt::format_to(std::back_inserter(out), "{} {}={} {}:{}:{}: {}\n", margin, paint(kBlue), paint(kReset), file,
+                   place.line, place.column, printable(place.note));
   }
 
   /// `^^^^` under the finding, `----` under the other place on the same line.

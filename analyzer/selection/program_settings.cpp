@@ -39,7 +39,7 @@ const ProgramSettings& SettingsFinder::of(const std::filesystem::path& program) 
     const Selection selection = selection_of(configuration, holds, command_line_);
     const bool every_motion = selection.shows("motion-goes-nowhere"_diag);
     const rules::CheckSetup setup{configuration.machine.setup, configuration.lint.thresholds, every_motion};
-    settings = std::make_unique<const ProgramSettings>(ProgramSettings{setup, selection, configuration.machine});
+    settings = std::make_unique<const ProgramSettings>(ProgramSettings{setup, selection, configuration});
   }
   return *settings;
 }

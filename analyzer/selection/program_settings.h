@@ -16,7 +16,7 @@ namespace isocnc::selection {
 struct ProgramSettings {
   rules::CheckSetup setup;
   Selection selection;
-  const configuration::MachineConfiguration& machine;  ///< The machine of the configuration, for a run.
+  const configuration::Configuration& configuration;  ///< With the machine and the setups, for a run.
 };
 
 /// Finds the settings of programs: those of their configurations, overridden by the command line. The results are valid

@@ -31,14 +31,15 @@ Report with_run(Report found, std::span<const simulation::RunFinding> run) {
     found.findings.push_back({.line = each.line,
                               .finding = each.finding,
                               .mistake = each.mistake < 0 ? -1 : mistakes + each.mistake,
-                              .is_of_run = true});
+                              .is_of_run = true,
+                              .last_line = each.last_line});
   }
   std::inplace_merge(found.findings.begin(), found.findings.begin() + middle, found.findings.end(), by_place);
   return found;
 }
 
-/// Removes what a check has concluded from the tip where a run has compared the joints.
-static Report without_tips(Report report, const simulation::RunOutcome& run) {
+Report without_tips(Report report, const simulation::RunOutcome& run, const Selection& selection) {
+  if (!selection.shows("joint-travel"_diag)) return report;
   std::erase_if(report.findings, [&](const LocatedFinding& located) {
     const bool is_of_every_path = located.path == LocatedFinding::kEveryPath;
     return located.finding.id == "travel-exceeded"_diag && is_of_every_path && run.has_executed(located.line);
@@ -49,10 +50,16 @@ static Report without_tips(Report report, const simulation::RunOutcome& run) {
 Report shown_report_with_run(Report found, const simulation::RunOutcome& run, std::string_view text,
                              const Selection& selection, const FindingFilter& filter) {
   const auto filter_both = [&](Report report, std::string_view of_text) {
-    if (selection.shows("joint-travel"_diag)) report = without_tips(std::move(report), run);
+    report = without_tips(std::move(report), run, selection);
     return filter ? filter(std::move(report), of_text) : report;
   };
   return shown_report(with_run(std::move(found), run.findings), text, selection, filter_both);
+}
+
+Report shown_report_with_run(Report found, const simulation::RunOutcome& run, const syntax::Document& document,
+                             Suppressions comments, const Selection& selection) {
+  const auto filter = [&](Report report) { return without_tips(std::move(report), run, selection); };
+  return shown_report(with_run(std::move(found), run.findings), document, std::move(comments), selection, filter);
 }
 
 Report shown_run_report(const simulation::RunOutcome& run, std::string_view text, const Selection& selection) {

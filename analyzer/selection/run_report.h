@@ -6,7 +6,9 @@
 #include "analyzer/check/report.h"
 #include "analyzer/selection/selection.h"
 #include "analyzer/selection/shown_report.h"
+#include "analyzer/selection/suppressions.h"
 #include "interpreter/simulation/run_findings.h"
+#include "interpreter/syntax/document.h"
 
 namespace isocnc::selection {
 
@@ -19,6 +21,13 @@ check::Report with_run(check::Report found, std::span<const simulation::RunFindi
 /// from the tip (W130) is left out there.
 check::Report shown_report_with_run(check::Report found, const simulation::RunOutcome& run, std::string_view text,
                                     const Selection& selection, const FindingFilter& filter = {});
+/// The same for a document and the suppressions read from it.
+check::Report shown_report_with_run(check::Report found, const simulation::RunOutcome& run,
+                                    const syntax::Document& document, Suppressions comments,
+                                    const Selection& selection);
+
+/// Removes what a check concludes from the tip (W130) where the run has compared the joints, if that is selected.
+check::Report without_tips(check::Report report, const simulation::RunOutcome& run, const Selection& selection);
 
 /// The findings of a run alone that are shown: those that are selected and that no comment of the program suppresses.
 check::Report shown_run_report(const simulation::RunOutcome& run, std::string_view text, const Selection& selection);

@@ -21,8 +21,9 @@ check::Report shown_report(check::Report found, std::string_view text, const Sel
 }
 
 check::Report shown_report(check::Report found, const syntax::Document& document, Suppressions comments,
-                           const Selection& selection) {
-  return check::folded(unfolded(std::move(found), document, std::move(comments), selection));
+                           const Selection& selection, const std::function<check::Report(check::Report)>& filter) {
+  check::Report report = unfolded(std::move(found), document, std::move(comments), selection);
+  return check::folded(filter ? filter(std::move(report)) : std::move(report));
 }
 
 }  // namespace isocnc::selection

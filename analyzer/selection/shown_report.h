@@ -21,6 +21,6 @@ check::Report shown_report(check::Report found, std::string_view text, const Sel
                            const FindingFilter& filter = {});
 /// The same for a document and the suppressions read from it.
 check::Report shown_report(check::Report found, const syntax::Document& document, Suppressions comments,
-                           const Selection& selection);
+                           const Selection& selection, const std::function<check::Report(check::Report)>& filter = {});
 
 }  // namespace isocnc::selection

@@ -1,52 +1,23 @@
 #include "interpreter/dialect/given_name.h"
 
-#include <deque>
-#include <map>
-#include <mutex>
-#include <shared_mutex>
 #include <string>
 #include <utility>
 
+#include "interpreter/dialect/kept_values.h"
+
 namespace isocnc::dialect {
 
-namespace {
+/// In English and in Italian.
+static KeptValues<std::pair<std::string, std::string>>& names() {
+  static KeptValues<std::pair<std::string, std::string>> names;
+  return names;
+}
 
-/// All names so far.
-class NameTable {
- public:
-  std::uint32_t number_of(Text name) {
-    const std::unique_lock lock(mutex_);
-    std::pair<std::string, std::string> key(name.en, name.it);
-    const auto known = numbers_.find(key);
-    if (known != numbers_.end()) return known->second;
-    names_.push_back(key);
-    const auto number = static_cast<std::uint32_t>(names_.size());
-    numbers_.emplace(std::move(key), number);
-    return number;
-  }
+GivenName GivenName::of(Text name) { return {names().number_of({std::string(name.en), std::string(name.it)})}; }
 
-  std::string_view text_of(std::uint32_t number, Language language) const {
-    const std::shared_lock lock(mutex_);
-    if (number == 0 || number > names_.size()) return {};
-    const auto& [english, italian] = names_[number - 1];
-    return language == Language::Italian ? italian : english;
-  }
-
-  static NameTable& instance() {
-    static NameTable table;
-    return table;
-  }
-
- private:
-  mutable std::shared_mutex mutex_;
-  std::deque<std::pair<std::string, std::string>> names_;  // Texts stay where they are.
-  std::map<std::pair<std::string, std::string>, std::uint32_t> numbers_;
-};
-
-}  // namespace
-
-GivenName GivenName::of(Text name) { return {NameTable::instance().number_of(name)}; }
-
-std::string_view GivenName::in(Language language) const { return NameTable::instance().text_of(number, language); }
+std::string_view GivenName::in(Language language) const {
+  const auto& [english, italian] = names().at(number);
+  return language == Language::Italian ? italian : english;
+}
 
 }  // namespace isocnc::dialect

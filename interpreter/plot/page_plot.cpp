@@ -12,7 +12,7 @@ static std::string without_tags(std::string json) {
   return json;
 }
 
-void PagePlot::write(system::OutputFile& output, const Toolpath& path, const running::RunResult& result) {
+void PagePlot::write(system::OutputFile& output, const Toolpath& path, const PlottedRun& run) {
   const std::string_view page = subject_.page;
   const std::size_t title = page.find(kPageTitle);
   const std::size_t data = page.find(kPageData);
@@ -25,7 +25,7 @@ void PagePlot::write(system::OutputFile& output, const Toolpath& path, const run
       output.write(part);
   };
   static constexpr std::string_view kBytes = "application/octet-stream;base64";
-  block("facts", "application/json", without_tags(recording_.facts(path, result)));
+  block("facts", "application/json", without_tags(recording_.facts(path, run)));
   block("steps", kBytes, base64(recording_.steps()));
   block("points", kBytes, base64(recording_.points()));
   block("turns", kBytes, base64(recording_.turns()));

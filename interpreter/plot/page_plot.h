@@ -12,7 +12,7 @@ class PagePlot final : public Picture {
       : subject_(subject), recording_(subject, machine) {}
 
   void add(const ToolpathStep& step) override { recording_.add(step); }
-  void write(system::OutputFile& output, const Toolpath& path, const running::RunResult& result) override;
+  void write(system::OutputFile& output, const Toolpath& path, const PlottedRun& run) override;
 
  private:
   const PlotSubject& subject_;

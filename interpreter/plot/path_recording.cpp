@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "interpreter/dialect/locale.h"
+#include "interpreter/plot/scene_facts.h"
 #include "interpreter/running/vector_json.h"
+#include "interpreter/verification/verification_report.h"
 
 namespace isocnc::plot {
 
@@ -91,14 +93,14 @@ static OrderedJson tool_of(const std::optional<execution::ToolCode>& tool, const
   return json;
 }
 
-std::string PathRecording::facts(const Toolpath& path, const running::RunResult& result) const {
+std::string PathRecording::facts(const Toolpath& path, const PlottedRun& run) const {
   static constexpr std::string_view kEndings[] = {"end", "error", "until"};
   const bool is_three_axis = machine_.motion.kinematics.kind == kinematics::MachineKind::ThreeAxis;
   OrderedJson json = {{"version", 1},
                       {"name", subject_.name},
                       {"language", dialect::name_of(subject_.language)},
-                      {"ending", kEndings[static_cast<std::size_t>(result.ending)]},
-                      {"endLine", result.line},
+                      {"ending", kEndings[static_cast<std::size_t>(run.result.ending)]},
+                      {"endLine", run.result.line},
                       {"turnsTool", !is_three_axis},
                       {"home", OrderedJson::array({home_.tip[0], home_.tip[1], home_.tip[2], home_.b, home_.c})},
                       {"tools", OrderedJson::array()},
@@ -112,6 +114,11 @@ std::string PathRecording::facts(const Toolpath& path, const running::RunResult&
                               {"j", running::array(geometry::Vec3(each.frame.axes.col(1)))},
                               {"k", running::array(geometry::Vec3(each.frame.axes.col(2)))}});
   for (const kinematics::AxisLimits& axis : machine_.motion.axes) json["travel"].push_back(range(axis));
+  if (subject_.scene) json["scene"] = scene_facts(*subject_.scene, machine_.motion.kinematics, subject_.origin);
+  if (run.verified.certificate) {
+    json["contacts"] = contact_facts(run.verified, subject_.language);
+    json["certificate"] = in_words(*run.verified.certificate, subject_.language);
+  }
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 

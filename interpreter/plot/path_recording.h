@@ -23,8 +23,8 @@ class PathRecording {
   std::string_view steps() const { return steps_.bytes(); }
   std::string_view points() const { return points_.bytes(); }
   std::string_view turns() const { return turns_.bytes(); }  ///< Rotations of B and C, where they turn.
-  /// All other data of the plot except the program text, as JSON.
-  std::string facts(const Toolpath& path, const running::RunResult& result) const;
+  /// All other data of the plot except the program text, as JSON: also what surrounds the program, and what was hit.
+  std::string facts(const Toolpath& path, const PlottedRun& run) const;
 
  private:
   /// A point in the units of the recording: µm, 0.0001 degrees, 0.001 mm/s, 0.001 mm/min.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include "interpreter/plot/toolpath.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/system/output_file.h"
+#include "interpreter/verification/verified_run.h"
 
 namespace isocnc::plot {
 
@@ -28,6 +30,14 @@ struct PlotSubject {
   std::vector<PlotTool> tools;
   std::string_view page;  ///< Template for PlotFormat::Html: kPageTemplate.
   dialect::Language language = dialect::Language::English;
+  std::shared_ptr<const verification::Scene> scene;  ///< What surrounds the program; null if nothing is known of it.
+  geometry::Vec3 origin = geometry::Vec3::Zero();    ///< Of the first workpiece frame, machine frame, mm.
+};
+
+/// How a run has ended, and what it has shown.
+struct PlottedRun {
+  const running::RunResult& result;
+  const verification::VerifiedRun& verified;
 };
 
 /// A drawing of a path in one format.
@@ -36,7 +46,7 @@ class Picture {
   virtual ~Picture() = default;
   virtual void add(const ToolpathStep& step) = 0;
   /// Writes the whole picture after the end of the run.
-  virtual void write(system::OutputFile& output, const Toolpath& path, const running::RunResult& result) = 0;
+  virtual void write(system::OutputFile& output, const Toolpath& path, const PlottedRun& run) = 0;
 };
 
 /// The tool with its name in the machine file: `T102003 fresa D20`; without a name `T102003`.

@@ -26,7 +26,7 @@ class Plot {
 
   void add(const motion::Stretch& stretch) { path_.add(stretch); }
   void add(const simulation::TimedEvent& timed) { path_.add(timed); }
-  void write(system::OutputFile& output, const running::RunResult& result) { picture_->write(output, path_, result); }
+  void write(system::OutputFile& output, const PlottedRun& run) { picture_->write(output, path_, run); }
 
  private:
   std::unique_ptr<Picture> picture_;

@@ -180,7 +180,7 @@ std::string SvgPlot::legend(const Toolpath& path) const {
   return svg;
 }
 
-void SvgPlot::write(system::OutputFile& output, const Toolpath& path, const running::RunResult&) {
+void SvgPlot::write(system::OutputFile& output, const Toolpath& path, const PlottedRun&) {
   for (View& view : views_)
     for (const ToolpathFrame& each : path.frames()) view.include(view.project(each.frame.origin));
   const std::size_t rows = std::max<std::size_t>(path.tools().size(), std::size(kKinds) + 2);

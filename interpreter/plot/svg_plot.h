@@ -18,7 +18,7 @@ class SvgPlot final : public Picture {
   explicit SvgPlot(const PlotSubject& subject);
 
   void add(const ToolpathStep& step) override;
-  void write(system::OutputFile& output, const Toolpath& path, const running::RunResult& result) override;
+  void write(system::OutputFile& output, const Toolpath& path, const PlottedRun& run) override;
 
  private:
   struct Point {

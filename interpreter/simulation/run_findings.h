@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ struct RunFinding {
   std::size_t line = 0;  ///< From 0.
   syntax::Finding finding;
   std::int32_t mistake = -1;  ///< Findings with the same number have the same cause (D66); -1: alone.
+  std::optional<std::size_t> last_line;  ///< Where it ends, if below `line`; from 0.
 
   friend bool operator==(const RunFinding&, const RunFinding&) = default;
 };

@@ -10,6 +10,7 @@
 
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/foreign_form.h"
+#include "interpreter/dialect/given_place.h"
 
 namespace isocnc::syntax {
 
@@ -35,6 +36,7 @@ struct Finding {
   Span related;  ///< A second place on the same line that explains the first (the first F of two); may be empty.
   std::array<double, dialect::kMaxArguments> values{};
   std::array<dialect::GivenName, dialect::kMaxGivenNames> names{};  ///< From outside the program; the first ones count.
+  dialect::GivenPlace described;  ///< Where a file beside the program describes what the finding names.
 
   bool has(dialect::Cause wanted) const { return id == wanted.id && cause == wanted.number; }
 

@@ -307,7 +307,29 @@ class Examination {
               .deepest_s = is_deeper ? places.end() : first,
               .deepest = is_deeper ? end : begin};
     }
-    return solids::follow_contact(first, places.end(), distance, speed, kContactDistance, kResolution);
+    solids::ContactSpan span =
+        solids::follow_contact(first, places.end(), distance, speed, kContactDistance, kResolution);
+    refine_depth(span, (places.end() - first) / solids::kMaxContactSteps + kResolution / rate, distance);
+    return span;
+  }
+
+  /// Between two steps the depth may be larger: looks around the deepest one, where it nearly always has one maximum.
+  template <class Distance>
+  static void refine_depth(solids::ContactSpan& span, double step, Distance& distance) {
+    constexpr int kRounds = 16;
+    double from = std::max(span.first, span.deepest_s - step);
+    double to = std::min(span.last, span.deepest_s + step);
+    for (int i = 0; i < kRounds && from < to; ++i) {
+      const double third = (to - from) / 3;
+      const Clearance left = distance(from + third, solids::kExact);
+      const Clearance right = distance(to - third, solids::kExact);
+      const bool is_left = left.upper < right.upper;
+      if (const Clearance& deeper = is_left ? left : right; deeper.upper < span.deepest.upper) {
+        span.deepest = deeper;
+        span.deepest_s = is_left ? from + third : to - third;
+      }
+      (is_left ? to : from) = is_left ? to - third : from + third;
+    }
   }
 
   void touch(const StretchPlaces& places, const BodyPair& pair, const solids::ContactSpan& span,

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "interpreter/dialect/given_place.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/kinematics/links.h"
 #include "interpreter/solids/mesh.h"
@@ -32,11 +33,7 @@ enum class BodyRole : std::uint8_t {
 using BodyShape = std::variant<solids::Cuboid, solids::Cylinder, std::shared_ptr<const solids::Mesh>>;
 
 /// The place in a file where a body is described.
-struct BodyDescription {
-  std::string file;          ///< As shown to users.
-  std::size_t line = 0;      ///< From 0.
-  std::uint32_t column = 0;  ///< Byte of the line, from 0.
-};
+using BodyDescription = dialect::FilePlace;
 
 /// A solid body on a part of the machine, in machine coordinates with all joints at 0, mm.
 struct SceneBody {

@@ -21,10 +21,12 @@ syntax::Finding finding_of(const Contact& contact) {
   constexpr double kSmallestDepth = 0.01;
   const geometry::Vec3 point = contact.frame.to_inner(contact.point);
   const double amount = std::max(kSmallestDepth, rounded(std::abs(contact.distance), 0.01));
-  return {.id = contact.id,
-          .values = {amount, rounded(point.x(), 0.01), rounded(point.y(), 0.01), rounded(point.z(), 0.01),
-                     rounded(contact.time, 0.1)},
-          .names = {contact.who, contact.whom}};
+  return {
+      .id = contact.id,
+      .values = {amount, rounded(point.x(), 0.01), rounded(point.y(), 0.01), rounded(point.z(), 0.01),
+                 rounded(contact.time, 0.1)},
+      .names = {contact.who, contact.whom},
+      .described = contact.described.file.empty() ? dialect::GivenPlace() : dialect::GivenPlace::of(contact.described)};
 }
 
 static syntax::Finding finding_of(const Unverified& gap) {
@@ -41,7 +43,10 @@ static void add_findings(simulation::RunOutcome& outcome, const std::vector<Cont
   std::int32_t mistakes = 0;
   for (const RunFinding& each : outcome.findings) mistakes = std::max(mistakes, each.mistake + 1);
   for (const Contact& contact : contacts)
-    found.push_back({.line = contact.line, .finding = finding_of(contact), .mistake = mistakes + contact.mistake});
+    found.push_back({.line = contact.line,
+                     .finding = finding_of(contact),
+                     .mistake = mistakes + contact.mistake,
+                     .last_line = contact.end_line > contact.line ? std::optional(contact.end_line) : std::nullopt});
   for (const Unverified& gap : certificate.gaps) found.push_back({.line = gap.line, .finding = finding_of(gap)});
   const auto by_line = [](const RunFinding& a, const RunFinding& b) { return a.line < b.line; };
   std::stable_sort(found.begin(), found.end(), by_line);

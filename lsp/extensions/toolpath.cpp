@@ -87,7 +87,7 @@ std::string ToolpathTask::compute(const std::function<bool()>& stop) {
   }
   return fmt::format(
       R"({{"resultId":"{}","version":{},"facts":{},"steps":{},"points":{},"turns":{}}})", now->id, program.version(),
-      recording.facts(path, result), stream(now->steps, before ? &before->steps : nullptr),
+      recording.facts(path, {result, {}}), stream(now->steps, before ? &before->steps : nullptr),
       stream(now->points, before ? &before->points : nullptr), stream(now->turns, before ? &before->turns : nullptr));
 }
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "interpreter/kinematics/machine.h"
+#include "interpreter/verification/verified_run.h"
+
+namespace isocnc::plot {
+
+/// What surrounds a program, for a view: `{"name", "kinematics", "nose", "tools", "bodies"}`. Bodies of revolution are
+/// outlines `[[z, radius], ...]`, mm: of a tool above its tip, of the nose above the spindle nose. Bodies are boxes,
+/// cylinders or meshes in the frame of the part of the machine that carries them (`on`), shifted by `at`; `workpiece`
+/// is the table that turns, or else the machine. `origin` is that of the first workpiece frame.
+nlohmann::ordered_json scene_facts(const verification::Scene& scene, const kinematics::Kinematics& kinematics,
+                                   const geometry::Vec3& origin);
+
+/// The contacts and near misses of a run, `[{"code", "severity", "line", "endLine", "time", "endTime", "tool", "who",
+/// "whom", "point", "distance", "message"}]`: lines from 1; mm, seconds; points in the machine frame with all joints
+/// at 0.
+nlohmann::ordered_json contact_facts(const verification::VerifiedRun& run, dialect::Language language);
+
+}  // namespace isocnc::plot

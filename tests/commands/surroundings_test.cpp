@@ -1,0 +1,185 @@
+// What surrounds a program, as isolint --verify and isorun tell it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "run_command.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_of_file.h"
+
+namespace isocnc::commands {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr std::string_view kShop = R"({
+  "machine": {
+    "kinematics": {"type": "three-axis"},
+    "home": {"z": 300},
+    "tools": [
+      {"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 10, "shape": "flat"},
+      {"head": 1, "holder": 1, "tool": 2, "length": 80},
+      {"head": 1, "holder": 1, "tool": 3, "name": "new"}]
+  },
+  "setups": [{"paths": ["*.iso"], "fixtures": [
+    {"name": "clamp 1", "box": [[100, -20, 0], [140, 20, 30]]}]}]
+})";
+
+/// The cutter's edge is at X90 + 10 on line 3, and is free again on line 4.
+constexpr std::string_view kHit =
+    "M06 T101001\n"
+    "G00 X0 Y0 Z10\n"
+    "G01 X120 F1000\n"
+    "X200\n"
+    "G00 Z50\n"
+    "M02\n";
+
+constexpr std::string_view kFree =
+    "M06 T101001\n"
+    "G00 X0 Y0 Z40\n"
+    "G01 X120 F1000\n"
+    "X200\n"
+    "G00 Z50\n"
+    "M02\n";
+
+class Surroundings : public testing::Test {
+ protected:
+  Surroundings() {
+    folder_.write("isocnc.json", kShop);
+    folder_.write("hit.iso", kHit);
+    folder_.write("free.iso", kFree);
+  }
+
+  CommandResult run(std::vector<std::string> command) const {
+    return run_command(std::move(command), {.folder = folder_.path()});
+  }
+
+  const support::TemporaryFolder folder_;
+};
+
+TEST_F(Surroundings, AreHitInAllFormats) {
+  const CommandResult text = run({"isolint", "--verify", "hit.iso"});
+  EXPECT_EQ(text.status, 1);
+  EXPECT_THAT(text.out, AllOf(HasSubstr("error[E152]: the cutter of T101001 hits clamp 1: 20 mm deep at X"),
+                              HasSubstr("--> hit.iso:3:1"), HasSubstr("= hit.iso:4:1: it lasts until here"),
+                              HasSubstr("= isocnc.json:11:5: clamp 1 is described here")));
+  const json finding = json::parse(run({"isolint", "--verify", "--format", "json", "hit.iso"}).out).at(0);
+  EXPECT_EQ(finding.at("source"), "run");
+  EXPECT_EQ(finding.at("related"),
+            json::parse(R"([{"file": "hit.iso", "line": 4, "column": 1, "text": "it lasts until here"},
+                            {"file": "isocnc.json", "line": 11, "column": 5, "text": "clamp 1 is described here"}])"));
+  const json log = json::parse(run({"isolint", "--verify", "--format", "sarif", "hit.iso"}).out);
+  const json& result = log.at("runs").at(0).at("results").at(0);
+  EXPECT_EQ(result.at("properties").at("body"), "the cutter of T101001");
+  EXPECT_EQ(result.at("properties").at("obstacle"), "clamp 1");
+  EXPECT_EQ(result.at("properties").at("depth"), 20);
+  EXPECT_EQ(result.at("relatedLocations").at(1).at("physicalLocation").at("artifactLocation").at("uri"), "isocnc.json");
+}
+
+TEST_F(Surroundings, AreToldInItalian) {
+  EXPECT_THAT(run({"isolint", "--lang", "it", "--verify", "hit.iso"}).out,
+              AllOf(HasSubstr("errore[E152]: la fresa T101001 urta clamp 1: entra di 20 mm in X"),
+                    HasSubstr("= hit.iso:4:1: dura fino a qui")));
+}
+
+TEST_F(Surroundings, ThatAreFreeGiveNoFinding) {
+  const CommandResult result = run({"isolint", "--verify", "free.iso"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, IsEmpty());
+}
+
+TEST_F(Surroundings, AreCertifiedByIsorun) {
+  const CommandResult hit = run({"isorun", "--verify", "hit.iso"});
+  EXPECT_EQ(hit.status, 1);
+  EXPECT_THAT(hit.out, AllOf(HasSubstr("error[E152]"),
+                             HasSubstr("\nverified: 4 motions, 1 contact; nothing nearer than 0.01 mm unseen in the "
+                                       "setup of isocnc.json\n")));
+  const CommandResult italian = run({"isorun", "--lang", "it", "--verify", "free.iso"});
+  EXPECT_EQ(italian.status, 0);
+  EXPECT_THAT(italian.out, HasSubstr("verificato: 4 movimenti, 0 contatti; nulla di più vicino di 0.01 mm sfugge "
+                                     "nell'attrezzaggio di isocnc.json\n"));
+  for (const CommandResult& each : {hit, italian}) EXPECT_THAT(each.out, Not(HasSubstr("safe")));
+  folder_.write("gaps.iso", "M06 T101002\nG01 X10 F1000\nM06 T101003\nG01 X10\nM06 T101001\nG01 Z10 F1000\nG02 X5\nM02\n");
+  EXPECT_THAT(run({"isorun", "--verify", "gaps.iso"}).out,
+              HasSubstr("; not verified: T101002 has no shape, T101003 has no length, what follows the error on line"));
+}
+
+TEST_F(Surroundings, MakeAPlainRunFail) {
+  const CommandResult result = run({"isorun", "hit.iso"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("hit.iso:3: error: the cutter of T101001 hits clamp 1"));
+  EXPECT_THAT(result.out, Not(HasSubstr("verified")));
+}
+
+TEST_F(Surroundings, AreNumbersInTheJsonOfIsorun) {
+  const json all = json::parse(run({"isorun", "--json", "hit.iso"}).out).at("verification");
+  EXPECT_EQ(all.at("motions"), 4);
+  const json& contact = all.at("contacts").at(0);
+  EXPECT_EQ(contact.at("code"), "E152");
+  EXPECT_EQ(contact.at("line"), 3);
+  EXPECT_EQ(contact.at("endLine"), 4);
+  EXPECT_EQ(contact.at("tool"), "T101001");
+  EXPECT_EQ(contact.at("body"), "the cutter of T101001");
+  EXPECT_EQ(contact.at("obstacle"), "clamp 1");
+  EXPECT_NEAR(contact.at("depth").get<double>(), 20, 0.01);
+  EXPECT_EQ(contact.at("point").size(), 3u);
+  EXPECT_LT(contact.at("time").get<double>(), contact.at("endTime").get<double>());
+  EXPECT_EQ(all.at("certificate").at("hardEpsilon"), 0.01);
+  EXPECT_THAT(all.at("certificate").at("notVerified"), IsEmpty());
+  EXPECT_FALSE(json::parse(run({"isorun", "--no-config", "--json", "hit.iso"}).out).contains("verification"));
+}
+
+TEST_F(Surroundings, InAFileBesideTheProgramOutweigh) {
+  folder_.write("hit.setup.json", R"({"fixtures": [{"name": "stop", "box": [[180, -5, 0], [190, 5, 15]]}]})");
+  const CommandResult result = run({"isolint", "--verify", "hit.iso"});
+  EXPECT_THAT(result.out, AllOf(HasSubstr("hits stop"), Not(HasSubstr("clamp 1")),
+                                HasSubstr("= hit.setup.json:1:15: stop is described here")));
+}
+
+TEST_F(Surroundings, ThatAreDescribedWronglyEndWithTwo) {
+  folder_.write("hit.setup.json", R"({"target": {"mesh": "gone.stl"}})");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"isolint", "--verify", "hit.iso"}, {"isorun", "hit.iso"}}) {
+    const CommandResult result = run(command);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("hit.setup.json:1:21: error: target.mesh: gone.stl"));
+  }
+  EXPECT_EQ(run({"isolint", "hit.iso"}).status, 0) << "nobody has asked the machine";
+}
+
+TEST_F(Surroundings, AreInThePage) {
+  if (run({"isorun", "--plot", "hit.html", "hit.iso"}).err.find("npm") != std::string::npos)
+    GTEST_SKIP() << "this isorun draws no page";
+  const std::string page = text_of_file(folder_.path() + "/hit.html");
+  const std::string mark = "<script id=\"data-facts\" type=\"application/json\">";
+  const std::size_t begin = page.find(mark) + mark.size();
+  const json facts = json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  EXPECT_EQ(facts.at("scene").at("bodies").at(0).at("name"), "clamp 1");
+  EXPECT_EQ(facts.at("scene").at("bodies").at(0).at("role"), "fixture");
+  EXPECT_EQ(facts.at("scene").at("tools").at("T101001").at("cutter"), json::parse("[[0, 10], [100, 10]]"));
+  EXPECT_EQ(facts.at("contacts").at(0).at("line"), 3);
+  EXPECT_THAT(facts.at("certificate").get<std::string>(), HasSubstr("verified: 4 motions, 1 contact"));
+}
+
+TEST_F(Surroundings, AreVerifiedAlikeByAnyNumberOfJobs) {
+  std::string program = "M06 T101001\nG00 X0 Y0 Z10\nG01 X1 F3000\n";
+  for (int i = 0; i < 6000; ++i) program += "X" + std::to_string(i * 37 % 200) + " Y" + std::to_string(i % 50) + "\n";
+  folder_.write("long.iso", program + "M02\n");
+  const auto with = [&](const std::string& jobs) {
+    return run({"isolint", "--verify", "--select", "E152,W154", "--jobs", jobs, "--format", "json", "long.iso"}).out;
+  };
+  const std::string one = with("1");
+  EXPECT_THAT(one, HasSubstr("E152"));
+  EXPECT_EQ(one, with("3"));
+}
+
+}  // namespace
+}  // namespace isocnc::commands
