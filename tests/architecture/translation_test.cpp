@@ -38,6 +38,7 @@ const std::vector<Translation> kPages = {{"docs/README.md", "docs/it/README.md"}
                                          {"docs/rules.md", "docs/it/codici.md"},
                                          {"docs/other-controls.md", "docs/it/altri-controlli.md"},
                                          {"docs/vscode.md", "docs/it/vscode.md"},
+                                         {"docs/verification.md", "docs/it/verifica.md"},
                                          {"vscode-extension/README.md", "docs/it/estensione.md"}};
 
 /// The translations of headings and of words in code, from a file with a heading for each kind and `English = Italian`
