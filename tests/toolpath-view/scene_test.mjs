@@ -292,7 +292,7 @@ test('speaks Italian, in the dark, and fits a narrow window', async () => {
   await narrow.keyboard.press('Enter');
   await drawn(narrow);
   await keep(narrow, 'scene-narrow');
-  for (const id of ['looks', 'measurement', 'settings', 'verification']) {
+  for (const id of ['looks', 'measurement', 'settings', 'verification', 'scrubber', 'clock']) {
     const box = await narrow.locator(`#${id}`).boundingBox();
     assert.ok(box && box.x >= 0 && box.x + box.width <= 420, `${id} is out of the window`);
   }

@@ -34,9 +34,10 @@ function pageFile() {
     html, body { height: 100% }
     html { --vscode-editor-background: #1f1f1f; --vscode-foreground: #cccccc; --vscode-descriptionForeground: #9d9d9d;
       --vscode-editorWidget-background: #202020; --vscode-panel-border: #2b2b2b; --vscode-focusBorder: #0078d4; --vscode-font-size: 13px;
-      --vscode-font-family: sans-serif; --vscode-editor-font-family: monospace; --vscode-button-background: #0078d4; --vscode-button-foreground: white }
+      --vscode-font-family: sans-serif; --vscode-editor-font-family: monospace; --vscode-button-background: #0078d4; --vscode-button-foreground: white;
+      --vscode-textLink-foreground: #4daafc }
     html:has(.vscode-light) { --vscode-editor-background: #ffffff; --vscode-foreground: #3b3b3b; --vscode-editorWidget-background: #f8f8f8;
-      --vscode-descriptionForeground: #616161; --vscode-panel-border: #e5e5e5 }
+      --vscode-descriptionForeground: #616161; --vscode-panel-border: #e5e5e5; --vscode-textLink-foreground: #005fb8 }
     html:has(.vscode-high-contrast-light) { --vscode-editor-background: #ffffff; --vscode-foreground: #292929; --vscode-editorWidget-background: #ffffff; --vscode-contrastBorder: #0f4a85 }
     html:has(.vscode-high-contrast:not(.vscode-high-contrast-light)) { --vscode-editor-background: #000000; --vscode-foreground: #ffffff; --vscode-editorWidget-background: #000000; --vscode-contrastBorder: #6fc3df }
   </style>`;

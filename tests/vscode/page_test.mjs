@@ -176,6 +176,8 @@ test('it shows what surrounds a program, and leads to the line of a contact', sh
     await drawn();
     await drawn();
     if (process.env.ISOCNC_SCREENSHOTS) await page.screenshot({ path: join(process.env.ISOCNC_SCREENSHOTS, `page-scene-${width}.png`) });
+    const clock = await page.locator('#clock').boundingBox();
+    assert.ok(clock.x + clock.width <= width, `the clock ends at ${clock.x + clock.width} of ${width} pixels`);
   }
   await post({ ...wholePath('bare', recordingOf(square(200))), program: 'bare' });
   assert.equal(await page.locator('#verification').isVisible(), false);

@@ -1,7 +1,7 @@
 /** What the machine would hit, as a list under the picture and as ticks on the bar of the time. */
 import { byId, element } from './elements';
 import { clock } from './format';
-import { severities, type Contact, type Severity } from './scene';
+import { severities, severityOf, type Contact, type Severity } from './scene';
 import type { Texts } from './texts';
 
 /** Entries that the list has; who fixes the first ones sees the next. */
@@ -102,5 +102,3 @@ function reveal(button: HTMLElement): void {
   if (inner.top < outer.top) list.scrollTop -= outer.top - inner.top;
   else if (inner.bottom > outer.bottom) list.scrollTop += inner.bottom - outer.bottom;
 }
-
-const severityOf = ({ severity }: Contact): Severity => (severities.includes(severity) ? severity : 'error');

@@ -98,6 +98,9 @@ export interface Contact {
   message: string;
 }
 
+/** The severity of a contact; one that is unknown counts as an error. */
+export const severityOf = ({ severity }: Contact): Severity => (severities.includes(severity) ? severity : 'error');
+
 /** The code of a tool, with which its shown name starts; null is no tool. */
 export const codeOf = (shownName: string | null) => shownName?.split(' ', 1)[0] ?? null;
 

@@ -4,7 +4,7 @@ import * as THREE from 'three';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 import { number, palettes, type Color, type Theme } from './colors';
 import { jointsOf, poseBesideWorkpiece, spindleLink, workpieceLink } from './link_pose';
-import { links, severities, trianglesOf, type Contact, type CylinderShape, type Link, type Outline, type Role, type Scene, type SceneBody, type Severity } from './scene';
+import { links, severities, severityOf, trianglesOf, type Contact, type CylinderShape, type Link, type Outline, type Role, type Scene, type SceneBody, type Severity } from './scene';
 import type { Vector } from './toolpath';
 
 /** How much of a body hides what is behind it: a part is looked into, and a machine looked through. */
@@ -41,7 +41,8 @@ export class SceneModel {
   private readonly tool = new THREE.Group();
   private readonly toolMaterials: Record<ToolPart, THREE.MeshStandardMaterial>;
   private readonly nose: THREE.Mesh | null;
-  private readonly marks: { sprite: THREE.Sprite; severity: Severity }[];
+  private readonly marks: THREE.Sprite[];
+  private readonly markMaterials: Record<Severity, THREE.SpriteMaterial>;
   private readonly lit = new Set<number>();
   private mounted: string | null = null;
 
@@ -65,6 +66,9 @@ export class SceneModel {
     if (this.nose) this.spindle.add(this.nose);
     this.spindle.add(this.tool);
     this.carriers.get(spindleLink(scene.kinematics))!.add(this.spindle);
+    this.markMaterials = Object.fromEntries(
+      severities.map((severity) => [severity, new THREE.SpriteMaterial({ map: markTexture(severity), transparent: true, depthTest: false })]),
+    ) as Record<Severity, THREE.SpriteMaterial>;
     this.marks = contacts.map((contact) => this.mark(contact));
   }
 
@@ -91,7 +95,7 @@ export class SceneModel {
     }
     for (const part of toolParts) this.toolMaterials[part].color.setHex(number(part === 'cutter' ? cutter : holder));
     this.toolMaterials.shank.color.setHex(number(mixed(cutter, holder)));
-    for (const { sprite, severity } of this.marks) sprite.material.color.setHex(number(contacts[severity]));
+    for (const severity of severities) this.markMaterials[severity].color.setHex(number(contacts[severity]));
   }
 
   /** Which roles are seen, and whether the tool with the spindle nose is. */
@@ -133,17 +137,17 @@ export class SceneModel {
   light(contacts: Iterable<number>): void {
     this.lit.clear();
     for (const each of contacts) this.lit.add(each);
-    this.marks.forEach(({ sprite }, i) => (sprite.renderOrder = this.lit.has(i) ? 7 : 6));
+    this.marks.forEach((sprite, i) => (sprite.renderOrder = this.lit.has(i) ? 7 : 6));
   }
 
   /** Keeps marks at their size on the screen. */
   scaleMarks(millimetersPerPixel: number): void {
-    this.marks.forEach(({ sprite }, i) => sprite.scale.setScalar((this.lit.has(i) ? 30 : 18) * millimetersPerPixel));
+    this.marks.forEach((sprite, i) => sprite.scale.setScalar((this.lit.has(i) ? 30 : 18) * millimetersPerPixel));
   }
 
   /** Where the mark of a contact is now, in the frame of the path. */
   markAt(contact: number): Vector {
-    const { sprite } = this.marks[contact];
+    const sprite = this.marks[contact];
     return this.inPath(sprite.position.clone(), sprite.parent!).toArray();
   }
 
@@ -207,7 +211,11 @@ export class SceneModel {
       (each.geometry as THREE.BufferGeometry).dispose();
       (each.material as THREE.Material).dispose();
     });
-    for (const { sprite } of this.marks) sprite.material.dispose();
+    for (const material of Object.values(this.toolMaterials)) material.dispose();
+    for (const material of Object.values(this.markMaterials)) {
+      material.map?.dispose();
+      material.dispose();
+    }
   }
 
   private inPath(at: THREE.Vector3, carrier: THREE.Object3D): THREE.Vector3 {
@@ -255,15 +263,13 @@ export class SceneModel {
   }
 
   /** A contact's point moves with the body that is hit. */
-  private mark(contact: Contact): { sprite: THREE.Sprite; severity: Severity } {
-    const severity = severities.includes(contact.severity) ? contact.severity : 'error';
-    const material = new THREE.SpriteMaterial({ map: markTexture(severity), transparent: true, depthTest: false });
-    const sprite = new THREE.Sprite(material);
+  private mark(contact: Contact): THREE.Sprite {
+    const sprite = new THREE.Sprite(this.markMaterials[severityOf(contact)]);
     sprite.position.set(...contact.point);
     sprite.renderOrder = 6;
     const whom = this.scene.bodies.find(({ name }) => name === contact.whom);
     this.carriers.get(this.linkOf(whom?.on ?? 'workpiece'))!.add(sprite);
-    return { sprite, severity };
+    return sprite;
   }
 }
 
