@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
 
 #include "interpreter/solids/mesh.h"
@@ -20,8 +21,9 @@ inline constexpr double kMaxCoordinate = 1e6;  ///< mm
 /// negative, and both bounds are -depth(). The depth of a convex piece of the body and a convex obstacle (box,
 /// cylinder, one triangle of a mesh) is the length of a translation that surely separates them, nearly always the
 /// shortest one; the depth of a body is that of its deepest piece, and of a mesh that of its deepest triangle. So a
-/// body must move by about the depth or more to be free. Where a closed mesh encloses the whole body, the depth is the
-/// distance to its surface.
+/// body must move by about the depth or more to be free. The depth of two meshes is that of their deepest pair of
+/// triangles, which says little more than that they overlap. Where a closed mesh encloses the whole body, or one of the
+/// surfaces of another mesh, and the surfaces are apart, the depth is the distance of the surfaces.
 struct Clearance {
   double lower = std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -44,5 +46,14 @@ Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Cyl
                     double sufficient = kExact);
 Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Mesh& obstacle,
                     double sufficient = kExact);
+
+/// What obstacles and bodies of the machine are made of.
+template <class Shape>
+concept Solid = std::same_as<Shape, Cuboid> || std::same_as<Shape, Cylinder> || std::same_as<Shape, Mesh>;
+
+/// Bounds on the distance of a solid, at a placement in the frame of the obstacle, from the obstacle, with the same
+/// promises. Both points are in the frame of the obstacle.
+template <Solid Moving, Solid Obstacle>
+Clearance clearance(const Moving& moving, const Placement& at, const Obstacle& obstacle, double sufficient = kExact);
 
 }  // namespace isocnc::solids

@@ -52,10 +52,13 @@ class PlacedFrustum {
     use(axis_);
     use(side_normal(other));
   }
-  /// The shape has no straight edges.
+  /// Calls `use` with the directions in which the shape has straight edges. A cylinder has none, but its side is
+  /// straight along the axis, which serves the same end: across it and an edge of another shape, both may leave each
+  /// other soonest.
   template <class Use>
-  void for_each_edge(Use&& /*use*/) const {}
-  const geometry::Vec3& axis() const { return axis_; }
+  void for_each_edge(Use&& use) const {
+    use(axis_);
+  }
 
  private:
   geometry::Vec3 side_normal(const geometry::Vec3& point) const;

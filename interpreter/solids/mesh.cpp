@@ -74,11 +74,28 @@ std::size_t count_open(const std::vector<MeshEdge>& edges) {
   return open;
 }
 
-}  // namespace
+/// One corner of each set of triangles that hang together by their corners. Requires the numbers of the corners.
+std::vector<Vec3> points_of_surfaces(std::span<const Triangle> triangles, const std::vector<std::uint32_t>& corners) {
+  std::vector<std::uint32_t> parents(corners.size());
+  for (std::uint32_t i = 0; i < parents.size(); ++i) parents[i] = i;
+  const auto root = [&](std::uint32_t corner) {
+    while (parents[corner] != corner) corner = parents[corner] = parents[parents[corner]];
+    return corner;
+  };
+  for (std::size_t i = 0; i < corners.size(); ++i) parents[root(corners[i])] = root(corners[i - i % 3]);
+  std::vector<Vec3> points;
+  std::vector<bool> is_known(corners.size());
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    const std::uint32_t surface = root(corners[i]);
+    if (!is_known[surface]) points.push_back(triangles[i / 3].corners[0]);
+    is_known[surface] = true;
+  }
+  return points;
+}
 
-MeshTopology topology_of(std::span<const Triangle> triangles) {
+MeshTopology topology_of(std::span<const Triangle> triangles, const std::vector<std::uint32_t>& corners) {
   MeshTopology topology;
-  topology.open_edges = count_open(sorted_edges(numbered_corners(triangles)));
+  topology.open_edges = count_open(sorted_edges(corners));
   if (triangles.empty()) return topology;
   const Vec3 origin = triangles.front().corners[0];
   for (const Triangle& triangle : triangles) {
@@ -88,7 +105,16 @@ MeshTopology topology_of(std::span<const Triangle> triangles) {
   return topology;
 }
 
-Mesh::Mesh(std::vector<Triangle> triangles) : triangles_(std::move(triangles)), topology_(topology_of(triangles_)) {
+}  // namespace
+
+MeshTopology topology_of(std::span<const Triangle> triangles) {
+  return topology_of(triangles, numbered_corners(triangles));
+}
+
+Mesh::Mesh(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
+  const std::vector<std::uint32_t> corners = numbered_corners(triangles_);
+  topology_ = topology_of(triangles_, corners);
+  surface_points_ = points_of_surfaces(triangles_, corners);
   build();
 }
 

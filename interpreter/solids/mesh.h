@@ -26,7 +26,8 @@ struct MeshTopology {
 };
 
 /// A surface of triangles, with a tree of boxes for fast distances. If the surface is closed, what it encloses is
-/// solid. Memory is proportional to the number of triangles: some 150 bytes for each.
+/// solid. Memory is proportional to the number of triangles: some 150 bytes for each, and
+/// 24 for each surface.
 class Mesh {
  public:
   static constexpr std::size_t kMaxTriangles = 1u << 30;
@@ -38,6 +39,8 @@ class Mesh {
   std::span<const MeshNode> nodes() const { return nodes_; }  ///< The root comes first.
   const BoundingBox& bounds() const { return nodes_.front().box; }
   const MeshTopology& topology() const { return topology_; }
+  /// One corner of each of the surfaces that the mesh consists of: triangles with a common corner are of one surface.
+  std::span<const geometry::Vec3> surface_points() const { return surface_points_; }
 
   /// Whether a closed mesh encloses a point that is not on its surface. False for a mesh that is not closed.
   bool encloses(const geometry::Vec3& point) const;
@@ -49,6 +52,7 @@ class Mesh {
   std::vector<Triangle> triangles_;
   std::vector<MeshNode> nodes_;
   MeshTopology topology_;
+  std::vector<geometry::Vec3> surface_points_;
 };
 
 /// Examines triangles; takes time proportional to n log n.

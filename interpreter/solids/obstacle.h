@@ -12,8 +12,14 @@ namespace isocnc::solids {
 /// The corners of a box along the axes, mm.
 using BoundingBox = Eigen::AlignedBox3d;
 
+/// Where a solid stands in the frame of the obstacle that it is compared with: a rotation and a translation, mm.
+using Placement = Eigen::Isometry3d;
+
+class PlacedCuboid;
+
 /// A box along the axes of its frame, solid. A box that stands askew is given in a frame of its own, to which the
-/// caller brings the placement of the body. Has the functions of a convex shape (PlacedFrustum).
+/// caller brings the placement of the body; or it is a PlacedCuboid. Has the functions of a convex shape
+/// (PlacedFrustum).
 struct Cuboid {
   geometry::Vec3 minimum = geometry::Vec3::Zero();  ///< Lower corner, mm.
   geometry::Vec3 maximum = geometry::Vec3::Zero();  ///< Upper corner, mm; nowhere below the lower one.
@@ -28,6 +34,7 @@ struct Cuboid {
   }
   geometry::Vec3 nearest(const geometry::Vec3& point) const { return point.cwiseMax(minimum).cwiseMin(maximum); }
   geometry::Vec3 middle() const { return (minimum + maximum) / 2; }
+  PlacedCuboid placed(const Placement& in) const;
   BoundingBox bounds() const { return {minimum, maximum}; }
 
   template <class Use>
@@ -40,6 +47,50 @@ struct Cuboid {
   }
 };
 
+/// A box in space, in any direction. Has the functions of a convex shape (PlacedFrustum).
+class PlacedCuboid {
+ public:
+  PlacedCuboid(const Cuboid& shape, const Placement& at)
+      : middle_(at * shape.middle()), axes_(at.linear()), half_((shape.maximum - shape.minimum) / 2) {}
+
+  double highest(const geometry::Vec3& n) const {
+    return n.dot(middle_) + geometry::Vec3(axes_.transpose() * n).cwiseAbs().dot(half_);
+  }
+  double lowest(const geometry::Vec3& n) const { return -highest(-n); }
+  geometry::Vec3 highest_point(const geometry::Vec3& n) const {
+    const geometry::Vec3 along = axes_.transpose() * n;
+    const geometry::Vec3 corner = (along.array() > 0).select(half_.array(), -half_.array());
+    return middle_ + axes_ * corner;
+  }
+  geometry::Vec3 lowest_point(const geometry::Vec3& n) const { return highest_point(-n); }
+  geometry::Vec3 nearest(const geometry::Vec3& point) const {
+    const geometry::Vec3 inside = axes_.transpose() * (point - middle_);
+    return middle_ + axes_ * geometry::Vec3(inside.cwiseMax(-half_).cwiseMin(half_));
+  }
+  PlacedCuboid moved(const geometry::Vec3& by) const {
+    PlacedCuboid copy = *this;
+    copy.middle_ += by;
+    return copy;
+  }
+  const geometry::Vec3& middle() const { return middle_; }
+
+  template <class Use>
+  void for_each_normal(const geometry::Vec3& /*other*/, Use&& use) const {
+    for_each_edge(use);
+  }
+  template <class Use>
+  void for_each_edge(Use&& use) const {
+    for (int axis = 0; axis < 3; ++axis) use(geometry::Vec3(axes_.col(axis)));
+  }
+
+ private:
+  geometry::Vec3 middle_;
+  geometry::Mat3 axes_;  ///< Columns: the directions of its edges.
+  geometry::Vec3 half_;  ///< Half its size along each, mm.
+};
+
+inline PlacedCuboid Cuboid::placed(const Placement& in) const { return PlacedCuboid(*this, in); }
+
 /// A solid cylinder about any axis, mm: a suction cup, a pin, a stop.
 struct Cylinder {
   AxisPlacement at;   ///< Center of the lower disc, and the direction of the axis.
@@ -47,6 +98,9 @@ struct Cylinder {
   double radius = 0;  ///< Not negative.
 
   PlacedFrustum solid() const { return PlacedFrustum({0, radius, height, radius}, at); }
+  PlacedFrustum placed(const Placement& in) const {
+    return PlacedFrustum({0, radius, height, radius}, {in * at.origin, in.linear() * at.axis});
+  }
   BoundingBox bounds() const;
 };
 
@@ -59,6 +113,8 @@ struct Triangle {
   geometry::Vec3 lowest_point(const geometry::Vec3& n) const;
   geometry::Vec3 highest_point(const geometry::Vec3& n) const { return lowest_point(-n); }
   geometry::Vec3 nearest(const geometry::Vec3& point) const;
+  Triangle moved(const geometry::Vec3& by) const { return {{corners[0] + by, corners[1] + by, corners[2] + by}}; }
+  Triangle placed(const Placement& in) const { return {{in * corners[0], in * corners[1], in * corners[2]}}; }
   geometry::Vec3 middle() const { return (corners[0] + corners[1] + corners[2]) / 3; }
   BoundingBox bounds() const;
   /// Twice the area, in the direction from which the corners run counterclockwise, mm^2.

@@ -111,18 +111,21 @@ void polish(Separation& best, const A& a, const B& b) {
 
 /// Looks for the point of the hull of all differences of two points that is nearest to 0, from the best points so far.
 /// Keeps up to four such differences, and adds the one that lies farthest towards 0. Stops where rounding does not let
-/// it come nearer.
+/// it come nearer for some steps: between faces that are nearly parallel, the first few steps gain less than a rounding
+/// error.
 template <class A, class B>
 void search(Separation& best, const A& a, const B& b, double sufficient) {
+  constexpr int kMaxStalled = 4;
+  int stalled = 0;
   DifferenceHull hull;
   hull.add(best.on_first, best.on_second);
   for (int step = 0; step < kMaxSearchSteps; ++step) {
     const bool encloses = hull.reduce();
     if (encloses && best.lower > 0) return;  // The proven gap outweighs a hull of rounding errors.
-    const bool is_nearer = take_points(best, hull.on_first(), hull.on_second());
+    stalled = take_points(best, hull.on_first(), hull.on_second()) ? 0 : stalled + 1;
     if (encloses) best.upper = 0;
     const double length = hull.nearest().norm();
-    if (best.overlaps() || !(length > 0) || (step > 0 && !is_nearer)) return;
+    if (best.overlaps() || !(length > 0) || stalled > kMaxStalled) return;
     const geometry::Vec3 n = hull.nearest() / length;
     take_gap(best, a, b, n);
     if (is_known(best, sufficient)) return;
@@ -131,6 +134,31 @@ void search(Separation& best, const A& a, const B& b, double sufficient) {
     if (hull.has(second - first)) return;
     hull.add(first, second);
   }
+}
+
+/// Tries the directions of faces. Faces that are parallel but for a tiny angle leave a hull of differences that is too
+/// flat to search on, while one of their normals is the direction that is looked for.
+template <class A, class B>
+void try_normals(Separation& best, const A& a, const B& b) {
+  const auto consider = [&](const geometry::Vec3& n) {
+    take_gap(best, a, b, n);
+    const geometry::Vec3 first = a.highest_point(n);
+    take_points(best, first, b.nearest(first));
+    const geometry::Vec3 second = b.lowest_point(n);
+    take_points(best, a.nearest(second), second);
+  };
+  const auto consider_both = [&](const geometry::Vec3& n) {
+    consider(n);
+    consider(-n);
+  };
+  a.for_each_normal(best.on_second, consider_both);
+  b.for_each_normal(best.on_first, consider_both);
+  a.for_each_edge([&](const geometry::Vec3& first) {
+    b.for_each_edge([&](const geometry::Vec3& second) {
+      const geometry::Vec3 across = first.cross(second);
+      if (across.norm() > 1e-6) consider_both(across.normalized());
+    });
+  });
 }
 
 }  // namespace detail
@@ -145,16 +173,18 @@ Separation separation(const A& a, const B& b, double sufficient) {
   detail::take_points(best, on_first, b.nearest(on_first));
   for (int i = 0; i < kSearches && !best.overlaps(); ++i) {
     detail::search(best, a, b, sufficient);
-    if (detail::is_known(best, sufficient)) break;
+    if (detail::is_known(best, sufficient)) return best;
     detail::polish(best, a, b);
-    if (detail::is_known(best, sufficient)) break;
+    if (detail::is_known(best, sufficient)) return best;
   }
+  if (!best.overlaps()) detail::try_normals(best, a, b);
   return best;
 }
 
 /// How far two convex shapes that overlap must be moved apart: the length of a translation of A that surely separates
-/// them, mm. It is the shortest along the normals of both shapes, across A's axis and B's edges, and what a descent
-/// from the best of these finds; the shortest of all translations may be shorter, never longer.
+/// them, mm. It is the shortest along the normals of both shapes, across an edge of each, and what a descent from the
+/// best of these finds. For boxes and triangles it is the shortest of all; that of round shapes may be shorter, never
+/// longer.
 template <class A, class B>
 double overlap_depth(const A& a, const B& b) {
   double depth = std::numeric_limits<double>::infinity();
@@ -172,9 +202,11 @@ double overlap_depth(const A& a, const B& b) {
   };
   a.for_each_normal(b.middle(), consider_both);
   b.for_each_normal(a.middle(), consider_both);
-  b.for_each_edge([&](const geometry::Vec3& edge) {
-    const geometry::Vec3 across = a.axis().cross(edge);
-    if (across.norm() > 1e-6) consider_both(across.normalized());
+  a.for_each_edge([&](const geometry::Vec3& first) {
+    b.for_each_edge([&](const geometry::Vec3& second) {
+      const geometry::Vec3 across = first.cross(second);
+      if (across.norm() > 1e-6) consider_both(across.normalized());
+    });
   });
   // Moved apart along the best direction so far, the shapes are mostly nearest to each other along a better one.
   constexpr int kRounds = 8;

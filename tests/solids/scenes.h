@@ -182,4 +182,22 @@ inline AxisPlacement placed_at_gap(const RevolvedBody& body, const Vec3& axis, c
   return {touch.point + gap * touch.normal - farthest, axis};
 }
 
+inline Placement any_placement(Random& random, double size) {
+  Placement at = Placement::Identity();
+  at.linear() = Eigen::AngleAxisd(random.real(-3.2, 3.2), any_direction(random)).toRotationMatrix();
+  at.translation() = any_point(random, size);
+  return at;
+}
+
+/// Places a solid at a gap from what the touched plane bounds, with a touched plane of its own against it: corners,
+/// edges and faces meet each other. If the gap is positive, the distance is exactly the gap, as above.
+inline Placement placed_at_gap(Random& random, const Touch& own, const Touch& touch, double gap) {
+  const Eigen::Quaterniond facing = Eigen::Quaterniond::FromTwoVectors(own.normal, -touch.normal);
+  const Eigen::AngleAxisd spin(random.one_in(3) ? 0.0 : random.real(-3.2, 3.2), touch.normal);
+  Placement at = Placement::Identity();
+  at.linear() = (spin * facing).normalized().toRotationMatrix();
+  at.translation() = touch.point + gap * touch.normal - at.linear() * own.point;
+  return at;
+}
+
 }  // namespace isocnc::solids::scenes

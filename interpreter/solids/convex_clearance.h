@@ -1,0 +1,170 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "interpreter/solids/clearance.h"
+#include "interpreter/solids/separation.h"
+
+/// What clearance() is made of: distances of convex shapes from each other and from meshes. Used in this folder only.
+namespace isocnc::solids::detail {
+
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// Takes the nearer one. Each part of a union bounds the whole by its own distance.
+inline void include(Clearance& whole, const Clearance& part) {
+  whole.lower = std::min(whole.lower, part.lower);
+  if (part.upper < whole.upper) {
+    whole.upper = part.upper;
+    whole.on_body = part.on_body;
+    whole.on_obstacle = part.on_obstacle;
+  }
+}
+
+inline Clearance bounded_by(double lower) {
+  Clearance result;
+  result.lower = lower;
+  return result;
+}
+
+/// A lower bound of the distance between the points of a sphere and those of a box.
+inline double sphere_bound(const geometry::Vec3& center, double radius, const BoundingBox& extent) {
+  const geometry::Vec3 outside =
+      (extent.min() - center).cwiseMax(center - extent.max()).cwiseMax(geometry::Vec3::Zero());
+  return outside.norm() - radius - kRounding;
+}
+
+inline bool is_usable(double bound) { return bound > -kUnbounded; }
+
+/// The points within `rounding` of a convex shape: their distance is that of the core, less `rounding`.
+template <class Core>
+struct RoundedShape {
+  Core core;
+  double rounding = 0;  ///< mm, not negative.
+};
+
+template <class Core>
+RoundedShape<Core> rounded(const Core& core, double rounding = 0) {
+  return {core, rounding};
+}
+
+/// Two convex shapes.
+template <class Core, class Shape>
+Clearance between(const RoundedShape<Core>& body, const Shape& shape, double sufficient) {
+  const Separation found = separation(body.core, shape, sufficient + body.rounding + kRounding);
+  Clearance result;
+  if (found.overlaps()) {
+    result.lower = result.upper = -(overlap_depth(body.core, shape) + body.rounding);
+    result.on_body = found.on_first;
+  } else {
+    result.lower = found.lower - body.rounding - kRounding;
+    result.upper = found.upper - body.rounding;
+    result.on_body = found.on_first + (body.rounding / found.upper) * (found.on_second - found.on_first);
+    if (result.upper < 0) result.lower = result.upper;
+  }
+  result.on_obstacle = found.on_second;
+  return result;
+}
+
+/// A lower bound of the signed distance between what two boxes contain: where the boxes overlap, nothing in them
+/// overlaps more than they do.
+inline double box_bound(const BoundingBox& a, const BoundingBox& b) {
+  const geometry::Vec3 gap = (b.min() - a.max()).cwiseMax(a.min() - b.max());
+  const double widest = gap.maxCoeff();
+  return (widest > 0 ? gap.cwiseMax(0).norm() : widest) - kRounding;
+}
+
+/// The walk through a mesh's tree for one convex shape.
+template <class Core>
+class MeshSearch {
+ public:
+  MeshSearch(const Mesh& mesh, const RoundedShape<Core>& body, double sufficient)
+      : mesh_(mesh), body_(body), sufficient_(sufficient) {}
+
+  /// Adds what the mesh's surface is to the shape.
+  void run(Clearance& nearest) {
+    depth_ = 0;
+    push(0, bound(mesh_.nodes()[0].box));
+    while (depth_ > 0) {
+      const QueuedNode entry = open_[--depth_];
+      if (entry.bound >= limit(nearest)) {
+        nearest.lower = std::min(nearest.lower, entry.bound);
+        continue;
+      }
+      const MeshNode& node = mesh_.nodes()[entry.node];
+      if (node.count > 0)
+        compare(node, nearest);
+      else
+        push_children(node);
+    }
+  }
+
+ private:
+  struct QueuedNode {
+    std::uint32_t node;
+    double bound;
+  };
+
+  double limit(const Clearance& nearest) const { return std::min(sufficient_, nearest.upper); }
+
+  /// One plane between the shape and a box, or how much they overlap along the axes.
+  double bound(const BoundingBox& extent) const {
+    const Cuboid box{extent.min(), extent.max()};
+    const geometry::Vec3 on_box = box.nearest(body_.core.middle());
+    const geometry::Vec3 apart = on_box - body_.core.nearest(on_box);
+    const double length = apart.norm();
+    if (!(length > 0)) return overlap_bound(extent);
+    const geometry::Vec3 n = apart / length;
+    return box.lowest(n) - body_.core.highest(n) - body_.rounding - kRounding;
+  }
+
+  /// Nothing in a box overlaps the shape more than the box does.
+  double overlap_bound(const BoundingBox& extent) const {
+    double widest = -kUnbounded;
+    for (int axis = 0; axis < 3; ++axis) {
+      const geometry::Vec3 n = geometry::Vec3::Unit(axis);
+      widest =
+          std::max({widest, extent.min()[axis] - body_.core.highest(n), body_.core.lowest(n) - extent.max()[axis]});
+    }
+    return widest - body_.rounding - kRounding;
+  }
+
+  void compare(const MeshNode& node, Clearance& nearest) const {
+    for (const Triangle& triangle : mesh_.triangles().subspan(node.first, node.count)) {
+      const double needed = limit(nearest);
+      if (needed < 0 && overlap_bound(triangle.bounds()) >= needed) continue;
+      include(nearest, between(body_, triangle, needed));
+    }
+  }
+
+  /// The nearer child comes out first.
+  void push_children(const MeshNode& node) {
+    const double left = bound(mesh_.nodes()[node.first].box);
+    const double right = bound(mesh_.nodes()[node.first + 1].box);
+    const bool left_first = left <= right;
+    push(left_first ? node.first + 1 : node.first, left_first ? right : left);
+    push(left_first ? node.first : node.first + 1, left_first ? left : right);
+  }
+
+  void push(std::uint32_t node, double bound) { open_[depth_++] = {node, bound}; }
+
+  const Mesh& mesh_;
+  const RoundedShape<Core>& body_;
+  double sufficient_;
+  std::array<QueuedNode, 64> open_;  ///< The tree halves its triangles, so that it is at most 31 deep.
+  std::size_t depth_ = 0;
+};
+
+/// The clearance where a closed surface encloses what is apart from it. Requires a search for exact distances from the
+/// surface, which is made again where `nearest` comes from one that ended early.
+template <class Search>
+Clearance enclosed(const Clearance& nearest, double sufficient, Search&& search) {
+  Clearance result = sufficient < kExact ? search() : nearest;
+  result.lower = -result.lower;
+  result.upper = result.lower;
+  return result;
+}
+
+}  // namespace isocnc::solids::detail
