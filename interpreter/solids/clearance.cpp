@@ -20,7 +20,7 @@ double coarse_bound(const RevolvedBody& body, const AxisPlacement& at, const Bou
 using PieceInPlace = detail::RoundedShape<PlacedFrustum>;
 
 PieceInPlace placed(const BodyPiece& piece, const AxisPlacement& at) {
-  return detail::rounded(PlacedFrustum(piece.core, at), piece.rounding);
+  return {PlacedFrustum(piece.core, at), piece.rounding};
 }
 
 /// All pieces of a body against one convex obstacle. A piece need not be known better than the nearest one so far.

@@ -15,7 +15,8 @@ inline constexpr double kRounding = 1e-6;
 inline constexpr double kMaxCoordinate = 1e6;  ///< mm
 
 /// What is known of the signed distance of a body and an obstacle, mm: lower <= distance <= upper. Both agree within
-/// 2 kRounding, except where the caller asked for less by `sufficient`.
+/// 2 kRounding, or 10 kRounding between faces that are parallel but for less than 1e-4 radians, except where the caller
+/// asked for less by `sufficient`.
 ///
 /// The distance is that of the nearest two points where body and obstacle are apart. Where they overlap, it is
 /// negative, and both bounds are -depth(). The depth of a convex piece of the body and a convex obstacle (box,

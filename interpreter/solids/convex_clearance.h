@@ -109,7 +109,7 @@ class MeshSearch {
 
   double limit(const Clearance& nearest) const { return std::min(sufficient_, nearest.upper); }
 
-  /// One plane between the shape and a box, or how much they overlap along the axes.
+  /// One plane between the shape and a box, or how much they overlap along the normals of both.
   double bound(const BoundingBox& extent) const {
     const Cuboid box{extent.min(), extent.max()};
     const geometry::Vec3 on_box = box.nearest(body_.core.middle());
@@ -122,12 +122,13 @@ class MeshSearch {
 
   /// Nothing in a box overlaps the shape more than the box does.
   double overlap_bound(const BoundingBox& extent) const {
+    const Cuboid box{extent.min(), extent.max()};
     double widest = -kUnbounded;
-    for (int axis = 0; axis < 3; ++axis) {
-      const geometry::Vec3 n = geometry::Vec3::Unit(axis);
-      widest =
-          std::max({widest, extent.min()[axis] - body_.core.highest(n), body_.core.lowest(n) - extent.max()[axis]});
-    }
+    const auto consider = [&](const geometry::Vec3& n) {
+      widest = std::max({widest, box.lowest(n) - body_.core.highest(n), body_.core.lowest(n) - box.highest(n)});
+    };
+    box.for_each_normal(body_.core.middle(), consider);
+    body_.core.for_each_normal(box.middle(), consider);
     return widest - body_.rounding - kRounding;
   }
 

@@ -111,21 +111,21 @@ void polish(Separation& best, const A& a, const B& b) {
 
 /// Looks for the point of the hull of all differences of two points that is nearest to 0, from the best points so far.
 /// Keeps up to four such differences, and adds the one that lies farthest towards 0. Stops where rounding does not let
-/// it come nearer for some steps: between faces that are nearly parallel, the first few steps gain less than a rounding
-/// error.
+/// it come nearer for more than `patience` steps: between faces that are nearly parallel, the first few steps gain less
+/// than a rounding error.
 template <class A, class B>
-void search(Separation& best, const A& a, const B& b, double sufficient) {
-  constexpr int kMaxStalled = 4;
+void search(Separation& best, const A& a, const B& b, double sufficient, int patience) {
   int stalled = 0;
   DifferenceHull hull;
   hull.add(best.on_first, best.on_second);
   for (int step = 0; step < kMaxSearchSteps; ++step) {
     const bool encloses = hull.reduce();
     if (encloses && best.lower > 0) return;  // The proven gap outweighs a hull of rounding errors.
-    stalled = take_points(best, hull.on_first(), hull.on_second()) ? 0 : stalled + 1;
+    const bool is_nearer = take_points(best, hull.on_first(), hull.on_second());
+    stalled = is_nearer || step == 0 ? 0 : stalled + 1;
     if (encloses) best.upper = 0;
     const double length = hull.nearest().norm();
-    if (best.overlaps() || !(length > 0) || stalled > kMaxStalled) return;
+    if (best.overlaps() || !(length > 0) || stalled > patience) return;
     const geometry::Vec3 n = hull.nearest() / length;
     take_gap(best, a, b, n);
     if (is_known(best, sufficient)) return;
@@ -168,11 +168,13 @@ void try_normals(Separation& best, const A& a, const B& b) {
 template <class A, class B>
 Separation separation(const A& a, const B& b, double sufficient) {
   constexpr int kSearches = 4;
+  constexpr int kPatience = 4;
   Separation best;
   const geometry::Vec3 on_first = a.nearest(b.nearest(a.middle()));
   detail::take_points(best, on_first, b.nearest(on_first));
   for (int i = 0; i < kSearches && !best.overlaps(); ++i) {
-    detail::search(best, a, b, sufficient);
+    const bool is_last = i + 1 == kSearches;
+    detail::search(best, a, b, sufficient, is_last ? kPatience : 0);
     if (detail::is_known(best, sufficient)) return best;
     detail::polish(best, a, b);
     if (detail::is_known(best, sufficient)) return best;

@@ -108,14 +108,19 @@ class MeshPairSearch {
     return std::sqrt(std::max(here.cwiseMax(0).squaredNorm(), there.cwiseMax(0).squaredNorm())) - kRounding;
   }
 
+  /// Most pairs are seen to be further apart than the nearest ones so far along the direction in which these are apart.
   void compare(const MeshNode& moving, const MeshNode& obstacle, Clearance& nearest) const {
+    const Vec3 apart = nearest.on_obstacle - nearest.on_body;
+    const Vec3 n = nearest.upper > 0 ? Vec3(apart.normalized()) : Vec3(Vec3::Zero());
     for (const Triangle& triangle : moving_.triangles().subspan(moving.first, moving.count)) {
       const auto placed = detail::rounded(triangle.placed(at_));
       const BoundingBox extent = placed.core.bounds();
+      const double highest = placed.core.highest(n) + kRounding;
       for (const Triangle& other : obstacle_.triangles().subspan(obstacle.first, obstacle.count)) {
         const double needed = limit(nearest);
-        const double apart = detail::box_bound(extent, other.bounds());
-        detail::include(nearest, apart >= needed ? bounded_by(apart) : detail::between(placed, other, needed));
+        double bound = detail::box_bound(extent, other.bounds());
+        if (bound < needed && needed > 0) bound = std::max(bound, other.lowest(n) - highest);
+        detail::include(nearest, bound >= needed ? bounded_by(bound) : detail::between(placed, other, needed));
       }
     }
   }
