@@ -1,4 +1,4 @@
-// What distances of tools from fixtures cost, and whole motions past them.
+// What distances of tools and of bodies of a head from fixtures cost, and whole motions past them.
 
 #include <benchmark/benchmark.h>
 
@@ -76,6 +76,21 @@ void distances(benchmark::State& state, const RevolvedBody& of, const Obstacle& 
   state.SetItemsProcessed(state.iterations());
 }
 
+/// The same for a solid in the frame of a spindle's nose, as a body of a head is.
+template <class Moving, class Obstacle>
+void solid_distances(benchmark::State& state, const Moving& of, const Obstacle& obstacle, double size,
+                     double sufficient) {
+  std::vector<Placement> all;
+  for (const AxisPlacement& at : placements(size, 1)) {
+    Placement& placement = all.emplace_back(Placement::Identity());
+    placement.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), at.axis).toRotationMatrix();
+    placement.translation() = at.origin;
+  }
+  std::size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(clearance(of, all[i++ % all.size()], obstacle, sufficient));
+  state.SetItemsProcessed(state.iterations());
+}
+
 /// Moves of 2 mm over the whole table at a height, which with `turn` tilt the head as well. All 96 pairs are asked.
 void advance_moves(benchmark::State& state, double height, double turn) {
   const auto tools = bodies();
@@ -107,6 +122,8 @@ void advance_moves(benchmark::State& state, double height, double turn) {
 
 const Cuboid kCup = cups().front();
 const Cylinder kPin{.at = {{160, 160, -78}, {0, 0, 1}}, .height = 60, .radius = 60};
+const Cuboid kHeadBox{{-150, -120, 20}, {150, 120, 420}};
+const Cylinder kHeadCylinder{.at = {{0, 0, 20}, {0, 0, 1}}, .height = 400, .radius = 120};
 const RevolvedBody kCutter = bodies()[0];
 const RevolvedBody kHolder = bodies()[2];
 
@@ -118,6 +135,13 @@ BENCHMARK_CAPTURE(distances, cylinder_exact_holder, kHolder, kPin, 50.0, kExact)
 BENCHMARK_CAPTURE(distances, mesh_1800_exact_holder, kHolder, ball(30), 50.0, kExact);
 BENCHMARK_CAPTURE(distances, mesh_80000_exact_holder, kHolder, ball(200), 50.0, kExact);
 BENCHMARK_CAPTURE(distances, mesh_80000_above_2_mm_holder, kHolder, ball(200), 50.0, 2.0);
+BENCHMARK_CAPTURE(solid_distances, head_box_above_2_mm_box, kHeadBox, kCup, 50.0, 2.0);
+BENCHMARK_CAPTURE(solid_distances, head_box_exact_box, kHeadBox, kCup, 50.0, kExact);
+BENCHMARK_CAPTURE(solid_distances, head_box_exact_cylinder, kHeadBox, kPin, 50.0, kExact);
+BENCHMARK_CAPTURE(solid_distances, head_cylinder_exact_cylinder, kHeadCylinder, kPin, 50.0, kExact);
+BENCHMARK_CAPTURE(solid_distances, head_box_exact_mesh_1800, kHeadBox, ball(30), 50.0, kExact);
+BENCHMARK_CAPTURE(solid_distances, mesh_1800_exact_box, ball(30), kHeadBox, 50.0, kExact);
+BENCHMARK_CAPTURE(solid_distances, mesh_1800_exact_mesh_1800, ball(30), ball(30), 300.0, kExact);
 BENCHMARK_CAPTURE(advance_moves, three_axes_96_pairs, -17.0, 0.0);
 BENCHMARK_CAPTURE(advance_moves, five_axes_96_pairs, -10.0, 0.02);
 
