@@ -32,6 +32,7 @@ PartName name_of(PartKind kind) {
       return {{"the holder of {}", "il portautensile di {}"}, {"the holder", "il portautensile"}};
     case PartKind::Nose:
     case PartKind::MachineBody:
+    case PartKind::SetupBody:
       break;
   }
   return {{"the spindle nose", "il naso del mandrino"}, {"the spindle nose", "il naso del mandrino"}};
@@ -85,6 +86,10 @@ class PairsMaker {
     result_.parts.push_back({.kind = kind, .revolved = &*body, .offset = offset, .name = part_name(kind, tool)});
   }
 
+  void add_body(PartKind kind, const SceneBody& body, Link on, const Vec3& shift) {
+    result_.parts.push_back({.kind = kind, .body = &body, .on = on, .shift = shift, .name = body_name(body)});
+  }
+
   /// Whether a link is between the machine's frame and the spindle.
   bool carries_spindle(Link link) const {
     if (link == Link::B || link == Link::C) return kinematics_.kind != MachineKind::Table;
@@ -94,10 +99,12 @@ class PairsMaker {
   void add_machine() {
     for (const SceneBody& body : scene_.machine) {
       if (carries_spindle(body.on)) {
-        result_.parts.push_back({.kind = PartKind::MachineBody, .body = &body, .name = body_name(body)});
+        add_body(PartKind::MachineBody, body, body.on, Vec3::Zero());
         // A head that tilts may turn the tool into what carries it.
         const bool is_own = kinematics_.kind == MachineKind::Head && body.on <= Link::Z;
         if (!is_own) continue;
+      } else if (body.on != Link::Machine) {
+        add_body(PartKind::MachineBody, body, body.on, Vec3::Zero());
       }
       result_.obstacles.push_back({.body = &body, .shape = body.shape, .on = body.on, .name = body_name(body)});
     }
@@ -109,6 +116,7 @@ class PairsMaker {
       Obstacle obstacle{
           .body = &body, .shape = body.shape, .on = kinematics::workpiece_link(kinematics_), .name = body_name(body)};
       if (scene_.is_in_workpiece_frame) obstacle.shift = origin;
+      if (obstacle.on != Link::Machine) add_body(PartKind::SetupBody, body, obstacle.on, obstacle.shift);
       auto* const box = std::get_if<solids::Cuboid>(&obstacle.shape);
       if (body.role == BodyRole::Spoilboard && box) {
         box->maximum.z() -= kSlack;
@@ -118,11 +126,18 @@ class PairsMaker {
     }
   }
 
+  /// Whether motions bring both nearer together, and they are not made to touch: what carries the nose touches it, and
+  /// links that carry one another touch as well.
+  bool may_meet(const MovingPart& part, const Obstacle& obstacle) const {
+    const bool is_own = carries_spindle(obstacle.on);
+    if (part.revolved) return !(is_own && part.kind == PartKind::Nose);
+    return carries_spindle(part.on) ? !is_own : obstacle.on == Link::Machine;
+  }
+
   void add_pair(std::size_t part_index, std::size_t obstacle_index) {
     const MovingPart& part = result_.parts[part_index];
     const Obstacle& obstacle = result_.obstacles[obstacle_index];
-    const bool is_own = carries_spindle(obstacle.on);
-    if (!part.revolved || (is_own && part.kind == PartKind::Nose)) return;
+    if (!may_meet(part, obstacle)) return;
     BodyPair pair{.part = part_index, .obstacle = obstacle_index, .revolved = part.revolved, .limit = kContactDistance};
     if (obstacle.body->role == BodyRole::Target && part.kind == PartKind::Cutter) {
       std::optional<solids::RevolvedBody> reduced = part.revolved->reduced(std::max(scene_.target_tolerance, kSlack));
@@ -131,8 +146,10 @@ class PairsMaker {
     }
     const bool is_cutting = part.kind == PartKind::Cutter || part.kind == PartKind::Shank;
     const BodyRole role = obstacle.body->role;
-    const bool is_watched =
-        role == BodyRole::Fixture || role == BodyRole::Machine || (role == BodyRole::Spoilboard && !is_cutting);
+    // Bodies of a machine pass one another closely by design.
+    const bool is_of_machine = role == BodyRole::Machine && part.kind == PartKind::MachineBody;
+    const bool is_watched = role == BodyRole::Fixture || (role == BodyRole::Machine && !is_of_machine) ||
+                            (role == BodyRole::Spoilboard && !is_cutting);
     if (is_watched && scene_.clearance > kContactDistance) {
       pair.limit = scene_.clearance;
       pair.reports_near = true;
@@ -155,22 +172,52 @@ class PairsMaker {
         pair.reach_axes = part.revolved->reach(tool_.length - part.offset);
       }
     } else {
-      pair.reach_axes = farthest(*part.body, is_head);
+      const bool is_on_spindle = part.on >= kinematics::spindle_link(kinematics_) && carries_spindle(part.on);
+      if (is_on_workpiece_side && is_on_spindle) pair.reach_tip = farthest(part, Vec3(0, 0, -tool_.length));
+      pair.reach_axes = is_head ? reach_on_head(part) : reach_to_table(part);
+      pair.shifts = carries_spindle(part.on);
     }
-    pair.swings = obstacle.on == Link::B || obstacle.on == Link::C;
-    if (!is_head && obstacle.on == Link::Machine) pair.reach_axes = 0;  // Nothing that turns lies between.
+    const bool is_on_table = obstacle.on == Link::B || obstacle.on == Link::C;
+    pair.swings = is_on_table;
+    // Nothing that turns lies between the spindle and the machine.
+    if (!is_head && obstacle.on == Link::Machine && pair.shifts) pair.reach_axes = 0;
   }
 
-  /// The largest distance of a machine body's points from the rotary axes of a head, or from the spindle nose.
-  double farthest(const SceneBody& body, bool is_head) const {
+  /// The largest distance of a body's points from the rotary axes of the head that turn it.
+  double reach_on_head(const MovingPart& part) const {
     const Vec3 b_axis = Vec3(0, 0, kinematics_.pivot) - kinematics_.spindle_from_b;
-    const Vec3 center = !is_head             ? Vec3(Vec3::Zero())
-                        : body.on == Link::B ? b_axis
-                                             : Vec3(b_axis - kinematics_.b_from_c);
-    if (is_head && body.on <= Link::Z) return 0;
-    const solids::BoundingBox box = bounds(body.shape);
-    const Vec3 corner = (box.min() - center).cwiseAbs().cwiseMax((box.max() - center).cwiseAbs());
-    return corner.norm() + (is_head && body.on == Link::B ? kinematics_.b_from_c.norm() : 0);
+    if (part.on == Link::B) return farthest(part, b_axis) + kinematics_.b_from_c.norm();
+    return part.on == Link::C ? farthest(part, b_axis - kinematics_.b_from_c) : 0;
+  }
+
+  /// The largest distance of a body's points from the rotary axes of the table: of a body on the table itself; of one
+  /// on the spindle's side, what comes to the distance from the nose to the axes.
+  double reach_to_table(const MovingPart& part) const {
+    switch (part.on) {
+      case Link::X:
+      case Link::Y:
+        // It does not follow all of the nose's joints. They are no larger than the distance from the nose to the B
+        // axis, and from there to the place of the nose with all joints at 0.
+        return farthest(part, kinematics_.b_point) + kinematics_.b_point.norm();
+      case Link::B:
+        if (kinematics_.kind == MachineKind::Table) return farthest(part, kinematics_.b_point);
+        break;
+      case Link::C:
+        if (kinematics_.kind == MachineKind::Table)
+          return farthest(part, kinematics_.c_point) + (kinematics_.c_point - kinematics_.b_point).norm();
+        break;
+      case Link::Machine:
+      case Link::Z:
+        break;
+    }
+    return farthest(part, Vec3::Zero());
+  }
+
+  /// The largest distance of a body's points from a point of its link's frame.
+  static double farthest(const MovingPart& part, const Vec3& from) {
+    const solids::BoundingBox box = bounds(part.body->shape);
+    const Vec3 center = from - part.shift;
+    return (box.min() - center).cwiseAbs().cwiseMax((box.max() - center).cwiseAbs()).norm();
   }
 
   const Scene& scene_;

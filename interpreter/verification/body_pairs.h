@@ -12,14 +12,17 @@
 namespace isocnc::verification {
 
 /// What a moving body is.
-enum class PartKind : std::uint8_t { Cutter, Shank, Holder, Nose, MachineBody };
+enum class PartKind : std::uint8_t { Cutter, Shank, Holder, Nose, MachineBody, SetupBody };
 
-/// A body that motions move: a part of the tool, the nose, or a body of the machine on the spindle's side.
+/// A body that motions move: a part of the tool, the nose, a body of the machine on a link, or a body of the setup on a
+/// table that turns. Those on the table are obstacles as well.
 struct MovingPart {
   PartKind kind = PartKind::Cutter;
   const solids::RevolvedBody* revolved = nullptr;  ///< Of the tool and the nose; about the tool's axis.
   double offset = 0;                               ///< Height of the revolved body's z = 0 above the tip, mm.
-  const SceneBody* body = nullptr;                 ///< Of the machine.
+  const SceneBody* body = nullptr;                 ///< Of the machine or the setup.
+  Link on = Link::Machine;                         ///< What moves that body.
+  geometry::Vec3 shift = geometry::Vec3::Zero();   ///< From the link's frame to that body's frame, mm.
   dialect::GivenName name;
 };
 
@@ -40,17 +43,18 @@ struct BodyPair {
 
   std::size_t part = 0;
   std::size_t obstacle = 0;
-  const solids::RevolvedBody* revolved = nullptr;  ///< The part's, or what counts of it; null for a machine's body.
+  const solids::RevolvedBody* revolved = nullptr;  ///< The part's, or what counts of it; null for other bodies.
   double limit = 0;            ///< What comes nearer is looked at, mm: at least the contact distance.
   bool reports_near = false;   ///< Whether coming nearer than `limit` without a contact is told (W154).
   double reach_tip = kNever;   ///< Largest distance of the part's points from the tip, mm.
-  double reach_axes = kNever;  ///< ... from the rotary axes of the head, mm.
+  double reach_axes = kNever;  ///< ... from the rotary axes that are between both, mm.
+  bool shifts = true;          ///< Whether the linear joints are between both.
   bool swings = false;         ///< Whether the distance from the nose to the table's axes counts as well.
 
   /// An upper bound of the speed of any point of the part relative to the obstacle, mm per unit of the path parameter.
   double speed(const MotionBounds& bounds) const {
     const double by_tip = bounds.tip + bounds.turn * reach_tip;
-    const double by_joints = bounds.joints + bounds.turn * (reach_axes + (swings ? bounds.swing : 0));
+    const double by_joints = (shifts ? bounds.joints : 0) + bounds.turn * (reach_axes + (swings ? bounds.swing : 0));
     return by_tip < by_joints ? by_tip : by_joints;
   }
 };

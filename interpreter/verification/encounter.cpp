@@ -18,6 +18,7 @@ using Eigen::Isometry3d;
 using geometry::Vec3;
 using solids::AxisPlacement;
 using solids::Clearance;
+using solids::Placement;
 
 namespace {
 
@@ -41,20 +42,22 @@ class StretchPlaces {
     if (s <= begin_) return stretch_.start;
     return s >= end_ ? stretch_.start + stretch_.duration : stretch_.time_at(s);
   }
-  /// Whether bodies of the tool only shift along a straight line, relative to the machine and to the workpiece.
+  /// Whether parts only shift along a straight line, relative to the machine and to the workpiece.
   bool is_straight_shift() const {
     const kinematics::Path& path = stretch_.path;
     return bounds_.turn == 0 && path.kind == kinematics::PathKind::Polynomial && path.c[2].head<3>().isZero(0) &&
            path.c[3].head<3>().isZero(0);
   }
 
-  /// Whether bodies of the tool shift in an obstacle's frame as the coordinates of the path do.
-  bool shifts_along_path(const Obstacle& obstacle) const {
-    if (bounds_.turn != 0) return false;
+  /// Whether a part shifts in an obstacle's frame as the coordinates of the path do.
+  bool shifts_along_path(const MovingPart& part, const Obstacle& obstacle) const {
+    if (bounds_.turn != 0 || !follows_linear_joints(part)) return false;
     if (kinematics_.kind != kinematics::MachineKind::Table) return obstacle.on == Link::Machine;
     return obstacle.on == (stretch_.path.is_of_joints ? Link::Machine : Link::C);
   }
-  bool is_shift(const Obstacle& obstacle) const { return is_straight_shift() || shifts_along_path(obstacle); }
+  bool is_shift(const MovingPart& part, const Obstacle& obstacle) const {
+    return is_straight_shift() || shifts_along_path(part, obstacle);
+  }
   const kinematics::Path& path() const { return stretch_.path; }
 
   /// Whether proven bounds hold where the stretch leads.
@@ -79,7 +82,21 @@ class StretchPlaces {
     return {place * Vec3(0, 0, offset - stretch_.path.tool_length) - obstacle.shift, axis};
   }
 
+  /// Where another part is at `s`, in the frame of an obstacle.
+  Placement body_at(double s, const MovingPart& part, const Obstacle& obstacle) const {
+    const kinematics::Coordinates joints = joints_at(s);
+    Placement place = link_pose(kinematics_, obstacle.on, joints).inverse() * link_pose(kinematics_, part.on, joints);
+    place.translation() = place * part.shift - obstacle.shift;
+    return place;
+  }
+
  private:
+  /// Whether all three linear joints move a part, as they move the tool.
+  bool follows_linear_joints(const MovingPart& part) const {
+    if (part.revolved || part.on == Link::Z) return true;
+    return (part.on == Link::B || part.on == Link::C) && kinematics_.kind != kinematics::MachineKind::Table;
+  }
+
   const kinematics::Coordinates& tip_at(double s) {
     if (s != tip_s_) {
       tip_ = stretch_.path.tip_at(kinematics_, s).value;
@@ -98,19 +115,38 @@ class StretchPlaces {
   kinematics::Coordinates tip_ = kinematics::Coordinates::Zero();
 };
 
-Clearance distance_to(const BodyShape& shape, const solids::RevolvedBody& body, const AxisPlacement& at,
-                      double sufficient) {
-  if (const auto* const box = std::get_if<solids::Cuboid>(&shape)) return clearance(body, at, *box, sufficient);
-  if (const auto* const cylinder = std::get_if<solids::Cylinder>(&shape))
-    return clearance(body, at, *cylinder, sufficient);
-  return clearance(body, at, *std::get<std::shared_ptr<const solids::Mesh>>(shape), sufficient);
+/// The solid that a shape is, for a function of it.
+template <class Use>
+auto with_solid(const BodyShape& shape, Use&& use) {
+  if (const auto* const box = std::get_if<solids::Cuboid>(&shape)) return use(*box);
+  if (const auto* const cylinder = std::get_if<solids::Cylinder>(&shape)) return use(*cylinder);
+  return use(*std::get<std::shared_ptr<const solids::Mesh>>(shape));
 }
 
-/// The smallest value of n . p over a convex shape; minus infinity for a mesh.
-double lowest(const BodyShape& shape, const Vec3& n) {
-  if (const auto* const box = std::get_if<solids::Cuboid>(&shape)) return box->lowest(n);
-  if (const auto* const cylinder = std::get_if<solids::Cylinder>(&shape)) return cylinder->solid().lowest(n);
-  return -std::numeric_limits<double>::infinity();
+Clearance distance_to(const BodyShape& shape, const solids::RevolvedBody& body, const AxisPlacement& at,
+                      double sufficient) {
+  return with_solid(shape, [&](const auto& obstacle) { return clearance(body, at, obstacle, sufficient); });
+}
+
+Clearance distance_to(const BodyShape& shape, const BodyShape& body, const Placement& at, double sufficient) {
+  return with_solid(shape, [&](const auto& obstacle) {
+    return with_solid(body, [&](const auto& moving) { return clearance(moving, at, obstacle, sufficient); });
+  });
+}
+
+double highest(const solids::Cuboid& box, const Vec3& n) { return box.highest(n); }
+double highest(const solids::Cylinder& cylinder, const Vec3& n) { return cylinder.solid().highest(n); }
+double highest(const solids::Mesh& mesh, const Vec3& n) {
+  return solids::Cuboid{mesh.bounds().min(), mesh.bounds().max()}.highest(n);
+}
+
+/// The largest value of n . p over a shape, of a mesh over the box around it.
+double highest(const BodyShape& shape, const Vec3& n) {
+  return with_solid(shape, [&](const auto& solid) { return highest(solid, n); });
+}
+
+double highest(const BodyShape& shape, const Placement& at, const Vec3& n) {
+  return n.dot(at.translation()) + highest(shape, at.linear().transpose() * n);
 }
 
 double highest(const solids::RevolvedBody& body, const AxisPlacement& at, const Vec3& n) {
@@ -148,7 +184,8 @@ struct PairGroup {
   }
   bool takes(const BodyPair& pair) const {
     return (widest.reach_tip < BodyPair::kNever) == (pair.reach_tip < BodyPair::kNever) &&
-           (widest.reach_axes > 0) == (pair.reach_axes > 0) && widest.swings == pair.swings;
+           (widest.reach_axes > 0) == (pair.reach_axes > 0) && widest.shifts == pair.shifts &&
+           widest.swings == pair.swings;
   }
 };
 
@@ -200,7 +237,7 @@ class Examination {
     const double rate = pair.speed(places.bounds());
     const double travel = rate * places.length();
     const auto distance = [&](double s, double sufficient) { return distance_of(places, pair, s, sufficient); };
-    const bool shifts = places.is_shift(bodies_.obstacles[pair.obstacle]);
+    const bool shifts = places.is_shift(bodies_.parts[pair.part], bodies_.obstacles[pair.obstacle]);
     const auto is_beyond_plane = [&] {
       if (!course.plane) return false;
       const PlaneGap gap = plane_gap(places, pair, *course.plane);
@@ -227,7 +264,9 @@ class Examination {
   Clearance distance_of(StretchPlaces& places, const BodyPair& pair, double s, double sufficient) const {
     const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
     const MovingPart& part = bodies_.parts[pair.part];
-    return distance_to(obstacle.shape, *pair.revolved, places.tool_at(s, part.offset, obstacle), sufficient);
+    if (pair.revolved)
+      return distance_to(obstacle.shape, *pair.revolved, places.tool_at(s, part.offset, obstacle), sufficient);
+    return distance_to(obstacle.shape, part.body->shape, places.body_at(s, part, obstacle), sufficient);
   }
 
   /// The gap between both bodies along one direction, which bounds their distance wherever it is not negative.
@@ -236,23 +275,25 @@ class Examination {
     double smallest = 0;
   };
 
-  /// The plane through the nearest point of a convex obstacle, across the shortest way between both bodies.
+  /// The plane through the nearest point of an obstacle, or of the box around a mesh, across the shortest way between
+  /// both bodies.
   std::optional<Plane> plane_between(const BodyPair& pair, const Clearance& nearest) const {
-    if (!pair.revolved || !(nearest.upper > 0 && std::isfinite(nearest.upper))) return {};
+    if (!(nearest.upper > 0 && std::isfinite(nearest.upper))) return {};
     const Vec3 between = nearest.on_obstacle - nearest.on_body;
     const double length = between.norm();
     if (!(length > 0)) return {};
     const Vec3 n = between / length;
-    const double low = lowest(bodies_.obstacles[pair.obstacle].shape, n);
-    return std::isfinite(low) ? std::optional(Plane{n, low}) : std::nullopt;
+    return Plane{n, -highest(bodies_.obstacles[pair.obstacle].shape, -n)};
   }
 
   /// On a straight shift, the gap changes linearly; on another one as the path does.
   PlaneGap plane_gap(StretchPlaces& places, const BodyPair& pair, const Plane& plane) const {
     const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
-    const double offset = bodies_.parts[pair.part].offset;
+    const MovingPart& part = bodies_.parts[pair.part];
     const auto gap = [&](double s) {
-      return plane.low - highest(*pair.revolved, places.tool_at(s, offset, obstacle), plane.n) - solids::kRounding;
+      const double top = pair.revolved ? highest(*pair.revolved, places.tool_at(s, part.offset, obstacle), plane.n)
+                                       : highest(part.body->shape, places.body_at(s, part, obstacle), plane.n);
+      return plane.low - top - solids::kRounding;
     };
     if (places.is_straight_shift()) {
       const double at_end = gap(places.end());
@@ -278,7 +319,7 @@ class Examination {
     for (;;) {
       const solids::AdvanceResult found = solids::first_contact(from, places.end(), distance, speed, options);
       if (found.verdict == solids::AdvanceResult::Verdict::Contact) {
-        const solids::ContactSpan span = follow(places, pair, found.s, distance, speed, rate);
+        const solids::ContactSpan span = follow(places, found.s, distance, speed, rate);
         touch(places, pair, span, encounter);
         if (!span.is_over || !(span.free > from)) break;
         from = span.free;
@@ -294,12 +335,12 @@ class Examination {
 
   /// A contact that is deeper than the rest of the stretch is long does not end on it.
   template <class Distance, class Speed>
-  solids::ContactSpan follow(const StretchPlaces& places, const BodyPair& pair, double first, Distance& distance,
-                             Speed& speed, double rate) const {
+  solids::ContactSpan follow(const StretchPlaces& places, double first, Distance& distance, Speed& speed,
+                             double rate) const {
     constexpr double kResolution = 0.1;  // mm
     const Clearance begin = distance(first, solids::kExact);
     const double rest = rate * (places.end() - first);
-    if (pair.revolved && begin.depth() > rest) {
+    if (begin.depth() > rest) {
       const Clearance end = distance(places.end(), solids::kExact);
       const bool is_deeper = end.upper < begin.upper;
       return {.first = first,
