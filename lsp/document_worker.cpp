@@ -6,13 +6,19 @@
 #include <fmt/format.h>
 
 #include "interpreter/configuration/configurations.h"
-#include "interpreter/dialect/format.h"
+#include "lsp/background/work_title.h"
 #include "lsp/documents/configuration_diagnostics.h"
 #include "lsp/feature_list.h"
 #include "lsp/protocol/uri.h"
 
 namespace isocnc::lsp {
 
+using background::VerificationOrder;
+using background::VerificationResult;
+using background::VerificationSubject;
+using background::work_on;
+using background::work_title;
+using background::WorkerRequest;
 using documents::ContentChange;
 using documents::Interest;
 using documents::Snapshot;
@@ -59,7 +65,12 @@ void DocumentWorker::edit(const rpc::Call& call, const Client& client) {
 }
 
 void DocumentWorker::reconfigure(const Client& client) {
-  finish_edit([&] { document_.reread_settings(); }, client);
+  finish_edit(
+      [&] {
+        document_.reread_settings();
+        if (client.settings.verifies == protocol::VerifyWhen::Never) document_.drop_run();
+      },
+      client);
 }
 
 /// Makes the edit. Reports the change to features only after the last of the waiting edits.
@@ -73,11 +84,6 @@ void DocumentWorker::finish_edit(const std::function<void()>& edit, const Client
   if (signals_->edits_waiting == 0 || signals_->is_closed) end_progress();
 }
 
-static std::string titled(const std::string& uri, const Client& client, const dialect::Text& title) {
-  const auto path = protocol::path_of(uri);
-  return dialect::format(title, client.language({}), path ? path->filename().generic_string() : uri);
-}
-
 bool DocumentWorker::shows_progress_to(const Client& client) const {
   return is_long_ && client.can("/window/workDoneProgress");
 }
@@ -85,7 +91,7 @@ bool DocumentWorker::shows_progress_to(const Client& client) const {
 void DocumentWorker::start_progress(const Client& client) {
   if (!shows_progress_to(client)) return;
   static constexpr dialect::Text kOpening = {"opening {}", "apertura di {}"};
-  notifier_.progress("opening", titled(uri_, client, kOpening));
+  notifier_.progress("opening", work_title(kOpening, uri_, client));
   is_progress_shown_ = true;
 }
 
@@ -141,10 +147,39 @@ void DocumentWorker::answer(const features::Method& method, const Json& params, 
     const Snapshot snapshot(document_, client, Interest{request.cancelled.get(), &signals_->edits_waiting});
     if (!method.begin) return request.done(method.answer(snapshot, params));
     std::optional<std::string> title;
-    if (shows_progress_to(client)) title = titled(uri_, client, kRunning);
+    if (shows_progress_to(client)) title = work_title(kRunning, uri_, client);
     const std::shared_ptr<const std::atomic<bool>> is_closed(signals_, &signals_->is_closed);
     background_requests_.post(method.begin(snapshot, params), request, is_closed, title);
   });
+}
+
+void DocumentWorker::order_verification(const VerificationOrder& order,
+                                        const rpc::OnWorker<std::optional<VerificationSubject>>& start) {
+  const bool is_verified = document_.run() && document_.run()->is_current();
+  if (order.cancelled->load() || is_verified || document_.size() > order.max_size) return start(std::nullopt);
+  start(VerificationSubject{
+      .text = document_.document().text(), .settings = document_.settings(), .revision = document_.revision()});
+}
+
+void DocumentWorker::take_verification(const VerificationResult& result, const Client& client) {
+  if (result.revision != document_.revision()) return;
+  document_.take_run(std::move(*result.outcome));
+  report_verification(client);
+}
+
+void DocumentWorker::report_verification(const Client& client) {
+  try {
+    const Snapshot snapshot(document_, client, Interest{nullptr, &signals_->edits_waiting});
+    for (const features::Feature* const feature : all_features()) {
+      if (!feature->verified || !feature->verified(snapshot, notifier_.notify)) continue;
+      if (feature->refresh && client.can(feature->refresh->capability))
+        notifier_.request(std::string(feature->refresh->method));
+    }
+  } catch (const rpc::Error&) {
+    return;  // An edit has arrived, and its change will be reported with what is left of the findings.
+  } catch (const std::exception& error) {
+    log(error);
+  }
 }
 
 }  // namespace isocnc::lsp

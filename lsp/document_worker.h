@@ -6,7 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "lsp/background_requests.h"
+#include "lsp/background/background_requests.h"
+#include "lsp/background/verification.h"
 #include "lsp/documents/analyzed_document.h"
 #include "lsp/features/feature.h"
 #include "lsp/rpc/message.h"
@@ -19,7 +20,8 @@ namespace isocnc::lsp {
 struct DocumentNotifier {
   features::Notify notify;
   rpc::OnLoop<std::string /*uri*/, std::string /*params*/> configuration;  ///< The diagnostics of an isocnc.json.
-  ReportProgress progress;
+  background::ReportProgress progress;
+  rpc::OnLoop<std::string /*method*/> request;  ///< Sends a request without parameters.
 };
 
 /// By these the loop's thread ends work on a document that is no longer wanted.
@@ -41,11 +43,17 @@ class DocumentWorker {
   /// The client's settings or the configuration files have changed.
   void reconfigure(const protocol::Client& client);
   void answer(const features::Method& method, const rpc::Json& params, const protocol::Client& client,
-              const WorkerRequest& request);
+              const background::WorkerRequest& request);
+  /// Calls `start` with what is to be verified, or with nothing: where the program has been verified as it is, or is
+  /// too long.
+  void order_verification(const background::VerificationOrder& order,
+                          const rpc::OnWorker<std::optional<background::VerificationSubject>>& start);
+  void take_verification(const background::VerificationResult& result, const protocol::Client& client);
 
  private:
   void finish_edit(const std::function<void()>& edit, const protocol::Client& client);
   void report_change(const protocol::Client& client);
+  void report_verification(const protocol::Client& client);
   void start_progress(const protocol::Client& client);
   void end_progress();
   bool shows_progress_to(const protocol::Client& client) const;
@@ -61,7 +69,7 @@ class DocumentWorker {
   bool is_long_ = false;  // Whether the text was long when opened.
   bool is_progress_shown_ = false;
   documents::AnalyzedDocument document_;
-  BackgroundRequests background_requests_;
+  background::BackgroundRequests background_requests_;
 };
 
 }  // namespace isocnc::lsp

@@ -6,31 +6,68 @@
 
 namespace isocnc::lsp {
 
-OpenDocument::OpenDocument(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri,
-                           DocumentNotifier notifier, std::shared_ptr<DocumentSignals> signals)
+using background::Verification;
+using background::VerificationOrder;
+using background::VerificationResult;
+using background::VerificationSubject;
+using background::WorkerRequest;
+
+OpenDocument::OpenDocument(rpc::Loop& loop, rpc::Pool& pool, documents::SettingsStore& settings, std::string uri,
+                           DocumentNotifier notifier, std::shared_ptr<DocumentSignals> signals,
+                           const VerificationMeans& means)
     : uri_(std::move(uri)),
       is_configuration_(protocol::names_configuration(uri_)),
       signals_(std::move(signals)),
-      worker_(pool, pool, settings, uri_, std::move(notifier), signals_) {}
+      worker_(pool, pool, settings, uri_, std::move(notifier), signals_),
+      verification_(is_configuration_ ? nullptr
+                                      : std::make_shared<Verification>(loop, means.strand, means.options, uri_,
+                                                                       verification_callbacks(means))) {}
+
+Verification::Callbacks OpenDocument::verification_callbacks(const VerificationMeans& means) {
+  const auto order = [this](VerificationOrder order, const rpc::OnWorker<std::optional<VerificationSubject>>& start) {
+    worker_.post(
+        [order = std::move(order), start](DocumentWorker& worker) { worker.order_verification(order, start); });
+  };
+  const auto take = [this](VerificationResult result, protocol::ClientPointer client) {
+    worker_.post([result = std::move(result), client = std::move(client)](DocumentWorker& worker) {
+      worker.take_verification(result, *client);
+    });
+  };
+  return {.order = order, .take = take, .progress = means.progress};
+}
 
 void OpenDocument::open(rpc::CallPointer call, protocol::ClientPointer client) {
   ++signals_->edits_waiting;
-  worker_.post(
-      [call = std::move(call), client = std::move(client)](DocumentWorker& worker) { worker.open(*call, *client); });
+  worker_.post([call = std::move(call), client](DocumentWorker& worker) { worker.open(*call, *client); });
+  if (verification_) verification_->open(std::move(client));
 }
 
 void OpenDocument::edit(rpc::CallPointer call, protocol::ClientPointer client) {
   ++signals_->edits_waiting;
-  worker_.post(
-      [call = std::move(call), client = std::move(client)](DocumentWorker& worker) { worker.edit(*call, *client); });
+  worker_.post([call = std::move(call), client](DocumentWorker& worker) { worker.edit(*call, *client); });
+  if (verification_) verification_->edit(std::move(client));
 }
 
 void OpenDocument::reconfigure(protocol::ClientPointer client) {
   ++signals_->edits_waiting;
-  worker_.post([client = std::move(client)](DocumentWorker& worker) { worker.reconfigure(*client); });
+  worker_.post([client](DocumentWorker& worker) { worker.reconfigure(*client); });
+  if (verification_) verification_->open(std::move(client));
+}
+
+void OpenDocument::save(protocol::ClientPointer client) {
+  if (verification_) verification_->save(std::move(client));
+}
+
+void OpenDocument::stop_verification() {
+  if (verification_) verification_->close();
+}
+
+void OpenDocument::cancel_verification(std::uint64_t number) {
+  if (verification_) verification_->cancel(number);
 }
 
 void OpenDocument::close() {
+  stop_verification();
   signals_->is_closed = true;
   ++signals_->edits_waiting;
 }

@@ -12,10 +12,10 @@ using rpc::Json;
 
 /// What the document's worker calls. A document that the editor has closed meanwhile notifies no more.
 DocumentNotifier OpenDocuments::notifier_of(const std::shared_ptr<const DocumentSignals>& signals) {
+  const std::size_t number = times_opened_;
   const rpc::OnLoop<std::string> send(loop_, [this, signals](std::string body) {
     if (!signals->is_closed) outbox_.send(std::move(body));
   });
-  const std::size_t number = ++times_opened_;
   const auto notify = [send](std::string_view method, const std::string& params) {
     send(rpc::notification_message(method, params));
   };
@@ -23,9 +23,31 @@ DocumentNotifier OpenDocuments::notifier_of(const std::shared_ptr<const Document
     report_configuration(uri, params);
   };
   const auto progress = [this, number](const std::string& work, const std::optional<std::string>& title) {
-    report_progress(fmt::format("{} of {}", work, number), title);
+    report_progress(fmt::format("{} of {}", work, number), title, Cancellable::No);
   };
-  return {.notify = notify, .configuration = {loop_, configuration}, .progress = {loop_, progress}};
+  const auto request = [this, signals](const std::string& method) {
+    if (!signals->is_closed) outbox_.request(method, nullptr);
+  };
+  return {.notify = notify,
+          .configuration = {loop_, configuration},
+          .progress = {loop_, progress},
+          .request = {loop_, request}};
+}
+
+std::unique_ptr<OpenDocument> OpenDocuments::make_document(const std::string& uri) {
+  const auto signals = std::make_shared<DocumentSignals>();
+  const std::size_t number = ++times_opened_;
+  const auto progress = [this, uri, number](std::uint64_t verification, const std::optional<std::string>& title) {
+    const std::string token = fmt::format("verifying {} of {}", verification, number);
+    if (title) {
+      shown_verifications_[token] = {uri, verification};
+    } else {
+      shown_verifications_.erase(token);
+    }
+    report_progress(token, title, Cancellable::Yes);
+  };
+  return std::make_unique<OpenDocument>(loop_, pool_, settings_, uri, notifier_of(signals), signals,
+                                        VerificationMeans{verifications_, verification_, progress});
 }
 
 void OpenDocuments::open(const rpc::CallPointer& call, const protocol::ClientPointer& client) {
@@ -34,8 +56,7 @@ void OpenDocuments::open(const rpc::CallPointer& call, const protocol::ClientPoi
   if (!params.at("text").is_string()) throw Json::type_error::create(302, "the text is no string", &params);
   std::unique_ptr<OpenDocument>& document = documents_[uri];
   if (document) document->close();
-  const auto signals = std::make_shared<DocumentSignals>();
-  document = std::make_unique<OpenDocument>(pool_, settings_, uri, notifier_of(signals), signals);
+  document = make_document(uri);
   document->open(call, client);
 }
 
@@ -87,10 +108,26 @@ void OpenDocuments::withdraw_configuration_diagnostics() {
       outbox_.notify("textDocument/publishDiagnostics", rpc::write({{"uri", uri}, {"diagnostics", Json::array()}}));
 }
 
-void OpenDocuments::report_progress(const std::string& token, const std::optional<std::string>& title) {
+void OpenDocuments::report_progress(const std::string& token, const std::optional<std::string>& title,
+                                    Cancellable cancellable) {
   if (title) outbox_.request("window/workDoneProgress/create", {{"token", token}});
-  const Json value = title ? Json{{"kind", "begin"}, {"title", *title}, {"cancellable", false}} : Json{{"kind", "end"}};
+  const Json value = title
+                         ? Json{{"kind", "begin"}, {"title", *title}, {"cancellable", cancellable == Cancellable::Yes}}
+                         : Json{{"kind", "end"}};
   outbox_.notify("$/progress", rpc::write({{"token", token}, {"value", value}}));
+}
+
+void OpenDocuments::cancel_progress(const Json& token) {
+  const auto shown =
+      token.is_string() ? shown_verifications_.find(token.get<std::string>()) : shown_verifications_.end();
+  if (shown == shown_verifications_.end()) return;
+  const ShownVerification verification = shown->second;  // Cancelling it erases it.
+  const auto document = documents_.find(verification.uri);
+  if (document != documents_.end()) document->second->cancel_verification(verification.number);
+}
+
+void OpenDocuments::stop_verifications() {
+  for (const auto& [uri, document] : documents_) document->stop_verification();
 }
 
 /// For a configuration that the editor has open, its OpenDocument reports the diagnostics.

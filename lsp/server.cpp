@@ -21,8 +21,13 @@ using rpc::Json;
 /// The maximum number of threads, each for one busy document; further documents wait for a thread.
 static constexpr std::size_t kMaxThreads = 32;
 
-Server::Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language)
-    : loop_(loop), outbox_(std::move(send)), language_(language), pool_(loop, kMaxThreads) {
+Server::Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language,
+               background::VerificationOptions verification)
+    : loop_(loop),
+      outbox_(std::move(send)),
+      language_(language),
+      open_documents_(loop_, pool_, settings_, outbox_, std::move(verification)),
+      pool_(loop, kMaxThreads) {
   for (const features::Feature* const feature : all_features()) {
     for (const features::Method& method : feature->methods) methods_[method.name] = method;
     for (const features::WorkspaceRequest& workspace_request : feature->workspace_requests)
@@ -38,6 +43,7 @@ const std::unordered_map<std::string_view, Server::Handler>& Server::handlers() 
       {"shutdown", &Server::shut_down},
       {"$/cancelRequest", &Server::cancel},
       {"$/setTrace", &Server::ignore},
+      {"window/workDoneProgress/cancel", &Server::cancel_progress},
       {"textDocument/didOpen", &Server::open},
       {"textDocument/didChange", &Server::edit},
       {"textDocument/didClose", &Server::close},
@@ -175,6 +181,7 @@ void Server::end() {
   exit_status_ = phase_ == LifecyclePhase::ShutDown ? 0 : 1;
   phase_ = LifecyclePhase::Ended;
   pending_requests_.cancel_all();
+  open_documents_.stop_verifications();
   loop_.stop();
 }
 
@@ -183,6 +190,10 @@ void Server::idle() {
 }
 
 void Server::cancel(const rpc::CallPointer& call) { pending_requests_.cancel(call->params().at("id")); }
+
+void Server::cancel_progress(const rpc::CallPointer& call) {
+  open_documents_.cancel_progress(call->params().at("token"));
+}
 
 // --- Documents
 
@@ -202,7 +213,8 @@ void Server::close(const rpc::CallPointer& call) {
 
 void Server::save(const rpc::CallPointer& call) {
   const Json& params = call->params();
-  if (protocol::names_configuration(params.at("textDocument").at("uri").get<std::string>())) reconfigure_all();
+  if (protocol::names_configuration(params.at("textDocument").at("uri").get<std::string>())) return reconfigure_all();
+  if (OpenDocument* const document = open_documents_.find(params)) document->save(client_);
 }
 
 // --- Workspace

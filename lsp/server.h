@@ -30,7 +30,8 @@ namespace isocnc::lsp {
 class Server final : public rpc::Peer {
  public:
   /// `language` takes precedence over the languages of configurations and of the editor's own texts.
-  Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language = {});
+  Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language = {},
+         background::VerificationOptions verification = {});
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
@@ -57,6 +58,7 @@ class Server final : public rpc::Peer {
   void initialized(const rpc::CallPointer& call);
   void shut_down(const rpc::CallPointer& call);
   void cancel(const rpc::CallPointer& call);
+  void cancel_progress(const rpc::CallPointer& call);
   void ignore(const rpc::CallPointer&) {}
   // Notifications about documents.
   void open(const rpc::CallPointer& call);
@@ -100,7 +102,7 @@ class Server final : public rpc::Peer {
   PostedPrograms posted_programs_{loop_, outbox_, settings_, [this] {
                                     refresh([](const features::Refresh& refresh) { return refresh.covers_closed; });
                                   }};
-  OpenDocuments open_documents_{loop_, pool_, settings_, outbox_};
+  OpenDocuments open_documents_;
   rpc::StrandBound<ClosedPrograms> closed_programs_{pool_, settings_};
   rpc::Pool pool_;  // Last, so that its threads end before other members are destroyed.
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analyzer/check/folding.h"
+#include "analyzer/selection/run_report.h"
 #include "analyzer/selection/shown_report.h"
 #include "analyzer/selection/style_findings.h"
 #include "interpreter/system/source_file.h"
@@ -14,6 +15,26 @@
 namespace isocnc::documents {
 
 AnalyzedDocument::AnalyzedDocument(std::string uri, SettingsStore& settings) : uri_(std::move(uri)), store_(settings) {}
+
+/// The lines of a document that are the same in another one, from the top and, below those, from the end.
+static std::pair<std::size_t, std::size_t> equal_lines(const syntax::Document& a, const syntax::Document& b) {
+  const std::size_t max = std::min(a.line_count(), b.line_count());
+  std::size_t top = 0;
+  while (top < max && a.text_of_line(top) == b.text_of_line(top)) ++top;
+  std::size_t end = 0;
+  while (end < max - top && a.text_of_line(a.line_count() - 1 - end) == b.text_of_line(b.line_count() - 1 - end)) ++end;
+  return {top, end};
+}
+
+/// Replaces the text of a document that stays open.
+void AnalyzedDocument::replace_all(std::int64_t version, std::string_view text) {
+  const syntax::Document before = std::exchange(document_, syntax::Document());
+  open(version, text);
+  if (!run_) return;
+  const auto [top, end] = equal_lines(before, document_);
+  run_->replace_lines(top, before.line_count() - top - end, document_.line_count() - top - end);
+  run_->expire();
+}
 
 void AnalyzedDocument::open(std::int64_t version, std::string_view text) {
   version_ = version;
@@ -27,6 +48,7 @@ void AnalyzedDocument::open(std::int64_t version, std::string_view text) {
   memories_.clear();  // The new text numbers its chunks anew.
   document_ = syntax::Document(text);
   is_up_to_date_ = false;
+  ++revision_;
 }
 
 void AnalyzedDocument::edit(std::int64_t version, const std::vector<ContentChange>& changes,
@@ -35,11 +57,12 @@ void AnalyzedDocument::edit(std::int64_t version, const std::vector<ContentChang
     if (change.range) {
       replace(change, encoding);
     } else {
-      open(version, change.text);
+      replace_all(version, change.text);
     }
   }
   version_ = version;
   is_up_to_date_ = false;
+  ++revision_;
 }
 
 void AnalyzedDocument::replace(const ContentChange& change, protocol::Encoding encoding) {
@@ -48,12 +71,49 @@ void AnalyzedDocument::replace(const ContentChange& change, protocol::Encoding e
   if (last < first) std::swap(first, last);
   const auto last_line = static_cast<std::uint32_t>(document_.line_count() - 1);
   if (first.line > last_line) first = {last_line, std::numeric_limits<std::uint32_t>::max()};
+  const std::size_t first_line = first.line;
+  const std::size_t end_line = std::min(last.line, last_line);
+  const std::size_t line_count = document_.line_count();
+  const std::string first_text(run_ ? document_.text_of_line(first_line) : "");
+  const std::string end_text(run_ ? document_.text_of_line(end_line) : "");
   // The client counts the mark as a character.
   if (first.line == 0 && std::exchange(has_byte_order_mark_, false)) document_.replace({}, {}, system::kByteOrderMark);
   document_.replace(from_client(first, encoding), from_client(last, encoding), change.text);
-  if (first.line > 0 || !document_.text_of_line(0).starts_with(system::kByteOrderMark)) return;
-  has_byte_order_mark_ = true;
-  document_.replace({}, {0, system::kByteOrderMark.size()}, {});
+  if (first.line == 0 && document_.text_of_line(0).starts_with(system::kByteOrderMark)) {
+    has_byte_order_mark_ = true;
+    document_.replace({}, {0, system::kByteOrderMark.size()}, {});
+  }
+  if (run_) move_run({first_line, first_text}, {end_line, end_text}, line_count);
+}
+
+/// Moves the kept run along with the lines after an edit from `first` to `last`, of a text that had so many lines.
+void AnalyzedDocument::move_run(const OldLine& first, const OldLine& last, std::size_t line_count) {
+  std::size_t begin = first.line;
+  std::size_t old_end = last.line + 1;
+  std::size_t new_end = old_end + document_.line_count() - line_count;
+  if (document_.text_of_line(begin) == first.text) ++begin;
+  if (begin < std::min(old_end, new_end) && document_.text_of_line(new_end - 1) == last.text) {
+    --old_end;
+    --new_end;
+  }
+  run_->replace_lines(begin, old_end - begin, new_end - begin);
+  run_->expire();
+}
+
+void AnalyzedDocument::take_run(simulation::RunOutcome outcome) {
+  run_.emplace(std::move(outcome));
+  report_.reset();
+}
+
+void AnalyzedDocument::drop_run() {
+  run_.reset();
+  report_.reset();
+}
+
+std::size_t AnalyzedDocument::size() const {
+  std::size_t bytes = 0;
+  for (std::size_t chunk = 0; chunk < document_.chunk_count(); ++chunk) bytes += document_.chunk_text(chunk).size();
+  return bytes;
 }
 
 void AnalyzedDocument::reread_settings() {
@@ -63,6 +123,8 @@ void AnalyzedDocument::reread_settings() {
   analysis_.reset();
   report_.reset();
   is_up_to_date_ = false;
+  ++revision_;
+  if (run_) run_->expire();
 }
 
 bool AnalyzedDocument::update(const std::function<bool()>& stop) {
@@ -92,8 +154,11 @@ selection::Suppressions AnalyzedDocument::read_suppressions() {
   return suppressions;
 }
 
-/// The report as isolint would show it.
+/// The report as isolint would show it, with --verify once there is a run.
 check::Report AnalyzedDocument::shown_report() {
+  if (run_)
+    return selection::shown_report_with_run(analysis_->report(), run_->outcome(), document_, read_suppressions(),
+                                            settings_.program->selection);
   return selection::shown_report(analysis_->report(), document_, read_suppressions(), settings_.program->selection);
 }
 
@@ -112,13 +177,37 @@ bool AnalyzedDocument::is_long() {
          read_suppressions().empty();
 }
 
+/// The findings of a report that only a run shows, or the others.
+static check::Report part_of(check::Report report, bool is_of_run) {
+  std::erase_if(report.findings, [&](const auto& located) { return located.is_of_run != is_of_run; });
+  return report;
+}
+
 check::FirstFindings AnalyzedDocument::excerpt(std::size_t maximum) {
-  if (!is_long()) return {report(), 0};
+  if (!is_long()) return {part_of(report(), false), 0};
   const selection::Selection& selection = settings_.program->selection;
   check::FirstFindings first = analysis_->excerpt(
       {.max = maximum, .severity = [&](dialect::DiagnosticId id) { return selection.severity(id); }, .folds = true});
   first.report = selection.shown(std::move(first.report));
+  if (run_) first.report = selection::without_tips(std::move(first.report), run_->outcome(), selection);
   return first;
+}
+
+check::FirstFindings AnalyzedDocument::run_excerpt() {
+  if (!run_) return {};
+  if (!is_long()) return {part_of(report(), true), run_->left_out()};
+  const selection::Selection& selection = settings_.program->selection;
+  std::vector<simulation::RunFinding> found = run_->outcome().findings;
+  std::erase_if(found, [&](const simulation::RunFinding& each) { return is_known(each); });
+  return {check::folded(selection.shown(selection::with_run({}, found))), run_->left_out()};
+}
+
+/// Whether the check of the text has found the same on that line.
+bool AnalyzedDocument::is_known(const simulation::RunFinding& of_run) const {
+  if (dialect::definition(of_run.finding.id).is_reported_by_runs) return false;
+  const std::vector<check::LocatedFinding> known = analysis_->findings_on(of_run.line);
+  return std::any_of(known.begin(), known.end(),
+                     [&](const check::LocatedFinding& located) { return located.finding.id == of_run.finding.id; });
 }
 
 std::vector<check::LocatedFinding> AnalyzedDocument::findings_on(std::size_t line) {

@@ -12,6 +12,7 @@
 #include "analyzer/check/analysis.h"
 #include "analyzer/selection/suppressions.h"
 #include "interpreter/syntax/per_chunk.h"
+#include "lsp/documents/kept_run.h"
 #include "lsp/documents/program_index.h"
 #include "lsp/documents/settings_store.h"
 #include "lsp/protocol/encoding.h"
@@ -49,12 +50,24 @@ class AnalyzedDocument {
   const check::Analysis& analysis() const { return *analysis_; }
   const check::Report& report();
   /// The first findings of the report, at least `maximum` unless there are fewer, and the number of findings after
-  /// them.
+  /// them. Without those that only a run shows.
   check::FirstFindings excerpt(std::size_t maximum);
+  /// The findings of the report that only a run shows (LocatedFinding::is_of_run).
+  check::FirstFindings run_excerpt();
   /// The report's findings on a line, repetitions included. If the report is very long, paths are missing, and so are
   /// findings that depend on the whole program.
   std::vector<check::LocatedFinding> findings_on(std::size_t line);
   const ProgramIndex& index();
+
+  /// A number that changes with the text and the settings.
+  std::uint64_t revision() const { return revision_; }
+  /// The size of the text in bytes.
+  std::size_t size() const;
+  /// What the last verification has shown, as far as it still applies; null if there was none.
+  const KeptRun* run() const { return run_ ? &*run_ : nullptr; }
+  /// Takes what a verification of the present revision has shown. From now on it is a part of the report.
+  void take_run(simulation::RunOutcome outcome);
+  void drop_run();
 
   protocol::ClientPosition to_client(const syntax::Position& position, protocol::Encoding encoding) const;
   syntax::Position from_client(const protocol::ClientPosition& position, protocol::Encoding encoding) const;
@@ -69,6 +82,14 @@ class AnalyzedDocument {
 
  private:
   void replace(const ContentChange& change, protocol::Encoding encoding);
+  void replace_all(std::int64_t version, std::string_view text);
+  /// A line as it was before an edit.
+  struct OldLine {
+    std::size_t line = 0;
+    std::string_view text;
+  };
+  void move_run(const OldLine& first, const OldLine& last, std::size_t line_count);
+  bool is_known(const simulation::RunFinding& of_run) const;
   check::Report shown_report();
   bool is_long();
   selection::Suppressions read_suppressions();
@@ -82,6 +103,8 @@ class AnalyzedDocument {
   std::optional<check::Analysis> analysis_;
   bool is_up_to_date_ = false;
   std::optional<check::Report> report_;  // The report, made on the first request.
+  std::uint64_t revision_ = 0;
+  std::optional<KeptRun> run_;
   ProgramIndex index_;
   syntax::PerChunk<bool> has_suppressions_;  // Whether a chunk may have comments that silence isolint.
   std::unordered_map<std::type_index, std::any> memories_;

@@ -39,8 +39,12 @@ class Snapshot {
   const syntax::Document& document() const { return document_.document(); }
   const check::Report& report() const { return document_.report(); }
   /// The first findings of the report, at least `maximum` unless there are fewer, and the number of findings after
-  /// them: a program may have 100,000 after each edit.
+  /// them: a program may have 100,000 after each edit. Without those that only a run shows.
   check::FirstFindings excerpt(std::size_t maximum) const { return document_.excerpt(maximum); }
+  /// The findings of the report that only a run shows, from the last verification. They are part of report() as well.
+  check::FirstFindings run_excerpt() const { return document_.run_excerpt(); }
+  /// Whether the last verification was one of this text with these settings. Otherwise its findings may be outdated.
+  bool is_verified() const { return document_.run() && document_.run()->is_current(); }
   /// The findings of the report on a line.
   std::vector<check::LocatedFinding> findings_on(std::size_t line) const { return document_.findings_on(line); }
   const check::Analysis& analysis() const { return document_.analysis(); }

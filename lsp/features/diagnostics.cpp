@@ -18,6 +18,8 @@
 #include "lsp/features/feature.h"
 
 /// The findings of isolint for the editor's Problems list: pushed after each edit, or pulled by clients that can pull.
+/// Those that only a run on the machine shows follow the others in the same list, with a source of their own. They are
+/// the findings of the last verification, faded while the text has changed since.
 namespace isocnc::features {
 
 using namespace dialect::literals;
@@ -45,34 +47,31 @@ void from_json(const Json& json, PullParams& params) {
   params.previous_result_id = protocol::member<std::string>(json, "previousResultId");
 }
 
-/// Writes the findings of one snapshot for the client.
+/// Where findings come from, as the client shows it.
+struct DiagnosticSource {
+  std::string_view name;
+  bool is_outdated = false;  ///< They are about an earlier text.
+};
+
+/// Writes the findings of one snapshot and source for the client.
 class DiagnosticWriter {
  public:
-  explicit DiagnosticWriter(const Snapshot& snapshot)
+  DiagnosticWriter(const Snapshot& snapshot, check::FirstFindings findings, const DiagnosticSource& source)
       : snapshot_(snapshot),
         language_(snapshot.language()),
-        first_(snapshot.excerpt(kMaxFindings + 1)),
+        first_(std::move(findings)),
+        source_(source),
         sends_related_(snapshot.client().can("/textDocument/publishDiagnostics/relatedInformation")) {}
 
-  /// The list as JSON text, written directly for speed: it may be long, and is sent after each edit.
-  std::string all() const {
-    std::string list;
-    append_all(list);
-    return list;
-  }
-
+  /// Appends the diagnostics as JSON text, each after a comma. They are written directly for speed: there may be many,
+  /// and they are sent after each edit.
   void append_all(std::string& list) const {
     static constexpr std::size_t kUsualLength = 400;
     const std::vector<LocatedFinding>& findings = first_.report.findings;
     list.reserve(list.size() + kUsualLength * std::min(findings.size(), kMaxFindings));
-    list += '[';
-    for (std::size_t i = 0; i < std::min(findings.size(), kMaxFindings); ++i) {
-      if (i > 0) list += ',';
-      append(findings[i], list);
-    }
+    for (std::size_t i = 0; i < std::min(findings.size(), kMaxFindings); ++i) append(findings[i], list);
     if (findings.size() > kMaxFindings) append_rest(findings[kMaxFindings], list);
     append_hints(list);
-    list += ']';
   }
 
  private:
@@ -80,6 +79,7 @@ class DiagnosticWriter {
     append_head(located.line, located.finding.span, 1 + static_cast<int>(located.severity()), message_of(located),
                 list);
     list += constant_part(located.finding.id);
+    if (source_.is_outdated) append_unnecessary(list);
     if (sends_related_ && (located.path >= 0 || located.repetitions >= 0)) {
       Json related = Json::array();
       if (located.path >= 0) related = path_of(located);
@@ -98,9 +98,9 @@ class DiagnosticWriter {
     const ClientRange range = snapshot_.to_client(line, span);
     fmt::format_to(
         std::back_inserter(list),
-        FMT_COMPILE(R"({{"range":{{"start":{{"line":{},"character":{}}},"end":{{"line":{},"character":{}}}}},)"
-                    R"("severity":{},"source":"isolint","message":)"),
-        range.start.line, range.start.character, range.end.line, range.end.character, severity);
+        FMT_COMPILE(R"(,{{"range":{{"start":{{"line":{},"character":{}}},"end":{{"line":{},"character":{}}}}},)"
+                    R"("severity":{},"source":"{}","message":)"),
+        range.start.line, range.start.character, range.end.line, range.end.character, severity, source_.name);
     append_text(message, list);
   }
 
@@ -175,11 +175,9 @@ class DiagnosticWriter {
   void append_hint(const LocatedFinding& first, const check::Repetition& again, const std::string& message,
                    std::string& list) const {
     static constexpr int kHint = 4;
-    static constexpr int kUnnecessary = 1;  // Editors fade such text.
-    list += ',';
     append_head(again.line, again.span, kHint, message, list);
     list += constant_part(again.id);
-    fmt::format_to(std::back_inserter(list), R"(,"tags":[{}])", kUnnecessary);
+    append_unnecessary(list);
     if (sends_related_) {
       const Json place = {
           {"location", protocol::Location{snapshot_.uri(), snapshot_.to_client(first.line, first.finding.span)}},
@@ -187,6 +185,11 @@ class DiagnosticWriter {
       list += R"(,"relatedInformation":)" + rpc::write(Json::array({place}));
     }
     list += '}';
+  }
+
+  static void append_unnecessary(std::string& list) {
+    static constexpr int kUnnecessary = 1;  // Editors fade such text.
+    fmt::format_to(std::back_inserter(list), R"(,"tags":[{}])", kUnnecessary);
   }
 
   static constexpr dialect::Text kAsAbove = {"as on line {}: {}", "come alla linea {}: {}"};
@@ -197,7 +200,6 @@ class DiagnosticWriter {
     static constexpr dialect::Text kRest = {"findings that are not shown: {}; isolint reports them all",
                                             "segnalazioni non mostrate: {}; isolint le riporta tutte"};
     const std::size_t count = first_.report.findings.size() + first_.left_out - kMaxFindings;
-    list += ',';
     append_head(next.line, next.finding.span, 3, dialect::format(kRest, language_, count), list);
     list += '}';
   }
@@ -205,15 +207,33 @@ class DiagnosticWriter {
   const Snapshot& snapshot_;
   const dialect::Language language_;
   const check::FirstFindings first_;
+  const DiagnosticSource source_;
   const bool sends_related_;
 };
+
+/// The diagnostics of a snapshot as a list in JSON.
+std::string all_diagnostics(const Snapshot& snapshot) {
+  std::string list;
+  DiagnosticWriter(snapshot, snapshot.excerpt(kMaxFindings + 1), {.name = "isolint"}).append_all(list);
+  DiagnosticWriter(snapshot, snapshot.run_excerpt(), {"isocnc verify", !snapshot.is_verified()}).append_all(list);
+  if (list.empty()) return "[]";
+  list.front() = '[';  // Instead of the first comma.
+  list += ']';
+  return list;
+}
 
 /// Equal findings have equal ids, so that a client that has them does not get them again.
 std::string id_of(const std::string& items) { return fmt::format("{:x}", std::hash<std::string>()(items)); }
 
+/// The id of the diagnostics that the client has got for this document; empty if none.
+struct SentDiagnostics {
+  std::string id;
+};
+
 protocol::RawJson pull(const Snapshot& snapshot, const PullParams& params) {
-  const std::string items = DiagnosticWriter(snapshot).all();
+  const std::string items = all_diagnostics(snapshot);
   const std::string id = id_of(items);
+  snapshot.memory<SentDiagnostics>().id = id;
   if (params.previous_result_id == id) return {fmt::format(R"({{"kind":"unchanged","resultId":"{}"}})", id)};
   return {fmt::format(R"({{"kind":"full","resultId":"{}","items":{}}})", id, items)};
 }
@@ -253,13 +273,25 @@ std::string conclude_pull(const std::string& results, const Json& params, Aggreg
 /// A client that pulls would show pushed diagnostics a second time.
 bool is_pushed(const Client& client) { return !client.can(kPull); }
 
+void push_items(const Snapshot& snapshot, const std::string& items, const Notify& notify) {
+  notify("textDocument/publishDiagnostics", fmt::format(R"({{"uri":{},"version":{},"diagnostics":{}}})",
+                                                        rpc::write(Json(snapshot.uri())), snapshot.version(), items));
+  snapshot.memory<SentDiagnostics>().id = id_of(items);
+}
+
 void push(const Snapshot& snapshot, const Notify& notify) {
-  if (!is_pushed(snapshot.client())) return;
-  std::string params =
-      fmt::format(R"({{"uri":{},"version":{},"diagnostics":)", rpc::write(Json(snapshot.uri())), snapshot.version());
-  DiagnosticWriter(snapshot).append_all(params);
-  params += '}';
-  notify("textDocument/publishDiagnostics", std::move(params));
+  if (is_pushed(snapshot.client())) push_items(snapshot, all_diagnostics(snapshot), notify);
+}
+
+/// Shows what a verification has changed. A client that has not pulled yet will do so.
+bool show_verified(const Snapshot& snapshot, const Notify& notify) {
+  const std::string& sent = snapshot.memory<SentDiagnostics>().id;
+  if (!is_pushed(snapshot.client()) && sent.empty()) return false;
+  const std::string items = all_diagnostics(snapshot);
+  if (sent == id_of(items)) return false;
+  if (!is_pushed(snapshot.client())) return true;
+  push_items(snapshot, items, notify);
+  return false;
 }
 
 void clear(const std::string& uri, const Client& client, const Notify& notify) {
@@ -281,6 +313,7 @@ extern const Feature diagnostics = {
     .methods = {on_any<&pull>("textDocument/diagnostic", kNothing)},
     .workspace_requests = {workspace_request<&pull_each>("workspace/diagnostic", conclude_pull)},
     .changed = push,
+    .verified = show_verified,
     .refresh = Refresh{.method = "workspace/diagnostic/refresh",
                        .capability = "/workspace/diagnostics/refreshSupport",
                        .covers_closed = true},

@@ -115,6 +115,9 @@ struct Feature {
   std::vector<ActionSource> actions;
   /// Called after a document has been opened or edited, once no further edit waits.
   void (*changed)(const Snapshot& snapshot, const Notify& notify) = nullptr;
+  /// Called after a verification has ended, unless an edit waits. Returns whether answers to earlier requests are
+  /// outdated now, so that `refresh` is to be sent.
+  bool (*verified)(const Snapshot& snapshot, const Notify& notify) = nullptr;
   /// For answers that depend on settings or the configuration: sent after these have changed.
   std::optional<Refresh> refresh;
   /// Called after a document has been closed.

@@ -22,10 +22,17 @@ static std::string text_of(const Json& json) { return json.is_string() ? json.ge
 
 static bool is_on(const Json& json) { return !json.is_boolean() || json.get<bool>(); }
 
+static VerifyWhen read_verify(const Json& json) {
+  const std::string when = text_of(json);
+  if (when == "off") return VerifyWhen::Never;
+  return when == "onSave" ? VerifyWhen::OnSave : VerifyWhen::OnPause;
+}
+
 ClientSettings read_settings(const Json& settings) {
   const Json& hints = find(settings, "inlayHints");
   return {.language = dialect::language_named(text_of(find(settings, "language"))),
           .checks_workspace = is_on(find(settings, "workspaceDiagnostics")),
+          .verifies = read_verify(find(settings, "verify")),
           .shows_end_positions = is_on(find(hints, "endPosition")),
           .shows_section_times = is_on(find(hints, "sectionTime")),
           .shows_motion_in_force = is_on(find(hints, "motionInForce"))};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -9,11 +10,19 @@
 
 namespace isocnc::protocol {
 
+/// When open programs are verified by a run on the simulated machine.
+enum class VerifyWhen : std::uint8_t {
+  Never,
+  OnSave,   ///< When they are opened and saved.
+  OnPause,  ///< Also after a pause in typing.
+};
+
 /// The user's settings in the editor; a feature that can be switched off has a member here.
 struct ClientSettings {
   std::optional<dialect::Language> language;
   bool checks_workspace =
       true;  ///< Whether to report findings in programs that are not open as well, if the client asks for them.
+  VerifyWhen verifies = VerifyWhen::OnPause;
   bool shows_end_positions = true;    ///< Inlay hints: end positions of incremental motions.
   bool shows_section_times = true;    ///< Inlay hints: start times of the tool sections.
   bool shows_motion_in_force = true;  ///< Inlay hints: the G in force for coordinates without G.

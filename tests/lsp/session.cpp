@@ -8,8 +8,18 @@
 
 namespace isocnc::lsp {
 
-Session::Session()
-    : MessageClient([](rpc::Loop& loop, rpc::Send send) { return std::make_unique<Server>(loop, std::move(send)); }) {}
+background::VerificationOptions without_verification() {
+  background::VerificationOptions options;
+  options.run = [](std::string_view, const selection::ProgramSettings&, const std::function<bool()>&) {
+    return verification::VerifiedRun();
+  };
+  return options;
+}
+
+Session::Session(background::VerificationOptions verification)
+    : MessageClient([&](rpc::Loop& loop, rpc::Send send) {
+        return std::make_unique<Server>(loop, std::move(send), std::nullopt, std::move(verification));
+      }) {}
 
 int Session::end(bool by_exit) {
   if (!by_exit) return hang_up();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lsp/background/verification.h"
 #include "lsp/rpc/json.h"
 #include "tests/support/message_client.h"
 
@@ -16,10 +17,13 @@ inline constexpr const char* kUri = "file:///nowhere/part.iso";
 
 inline Json document_params(const char* uri = kUri) { return {{"textDocument", {{"uri", uri}}}}; }
 
-/// A test client of a Server.
+/// Options with which no program is verified.
+background::VerificationOptions without_verification();
+
+/// A test client of a Server. Unless a test wants verification, there is none.
 class Session : public support::MessageClient {
  public:
-  Session();
+  explicit Session(background::VerificationOptions verification = without_verification());
 
   /// Sends `initialize` and `initialized`. Returns the result of `initialize`.
   Json start(const Json& capabilities = Json::object(), const Json& more = Json::object());

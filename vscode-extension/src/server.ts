@@ -31,7 +31,8 @@ function serverSettings() {
   const all = settings();
   const inlayHints: unknown = all.inlayHints;
   const workspaceDiagnostics: unknown = all.workspaceDiagnostics;
-  return { language: language(), inlayHints, workspaceDiagnostics };
+  const verify: unknown = all.verify;
+  return { language: language(), inlayHints, workspaceDiagnostics, verify };
 }
 
 export class Server implements vscode.Disposable {

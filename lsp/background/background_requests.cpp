@@ -1,11 +1,11 @@
-#include "lsp/background_requests.h"
+#include "lsp/background/background_requests.h"
 
 #include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
 
-namespace isocnc::lsp {
+namespace isocnc::background {
 
 void work_on(const WorkerRequest& request, const std::function<void()>& work) {
   if (request.cancelled->load()) return;
@@ -60,4 +60,4 @@ void BackgroundRequests::post(features::BackgroundRequest work, WorkerRequest re
   });
 }
 
-}  // namespace isocnc::lsp
+}  // namespace isocnc::background

@@ -11,7 +11,7 @@
 #include "lsp/rpc/on_loop.h"
 #include "lsp/rpc/strand.h"
 
-namespace isocnc::lsp {
+namespace isocnc::background {
 
 /// Shows the progress of some work to the user: with a title the work has started, without one it has ended. `work` is
 /// its name, unique within the document.
@@ -43,4 +43,4 @@ class BackgroundRequests {
   rpc::Strand strand_;
 };
 
-}  // namespace isocnc::lsp
+}  // namespace isocnc::background
