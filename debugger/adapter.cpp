@@ -23,6 +23,9 @@ static constexpr Text kUnknown{"there is no request {}", "non c'è nessuna richi
 static constexpr Text kNotUnderstood{"the arguments of {} cannot be read: {}",
                                      "gli argomenti di {} non si possono leggere: {}"};
 
+static constexpr Text kCondition{"an expression that is true before the block, such as T = 101001",
+                                 "un'espressione che è vera prima del blocco, come T = 101001"};
+
 Adapter::Adapter(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language)
     : loop_(loop),
       send_(std::move(send)),
@@ -87,7 +90,9 @@ Json Adapter::exception_filters() {
     filters.push_back({{"filter", def.name},
                        {"label", session_.in_language(def.label)},
                        {"description", session_.in_language(def.description)},
-                       {"default", def.is_default}});
+                       {"default", def.is_default},
+                       {"supportsCondition", def.takes_condition}});
+    if (def.takes_condition) filters.back()["conditionDescription"] = session_.in_language(kCondition);
     if (def.is_default) session_.exception_filters().turn_on(filter);
   }
   return filters;

@@ -6,6 +6,7 @@
 
 #include "analyzer/input/settling.h"
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/configuration/scenes.h"
 #include "lsp/protocol/uri.h"
 
 namespace isocnc::lsp {
@@ -42,7 +43,8 @@ void PostedPrograms::watch(const ClosedPrograms::Folders& folders, bool watches_
       const documents::DocumentSettings settings = settings_.of(folder / "program");
       extensions.insert(settings.configuration->lint.extensions.begin(), settings.configuration->lint.extensions.end());
     }
-  std::vector<std::string> patterns = {fmt::format("**/{}", configuration::kFileName)};
+  std::vector<std::string> patterns = {fmt::format("**/{}", configuration::kFileName),
+                                       fmt::format("**/*{}", configuration::kSetupExtension)};
   for (const std::string& extension : extensions) patterns.push_back(pattern_of(extension));
   if (patterns == watched_) return;
   if (!watched_.empty())

@@ -15,8 +15,8 @@ struct VerifyOptions {
   std::function<bool()> stop = {};
 };
 
-/// Runs a program on the machine of its configuration, in a scene if `scene` is not null. All programs that verify one
-/// run it this way.
+/// Runs a program on the machine of its configuration, with VGPL and all registers 0, in a scene if `scene` is not
+/// null.
 verification::VerifiedRun verified(std::string_view text, const ProgramSettings& settings,
                                    const verification::Scene* scene, const VerifyOptions& options = {});
 

@@ -9,8 +9,8 @@
 namespace isocnc::breakpoints {
 
 /// A reason to stop that is no breakpoint, which the client can turn on and off.
-enum class ExceptionFilter : std::uint8_t { Errors, Warnings, Limits, ToolChange, FirstCut };
-inline constexpr std::size_t kExceptionFilterCount = 5;
+enum class ExceptionFilter : std::uint8_t { Errors, Warnings, Limits, Run, ToolChange, FirstCut };
+inline constexpr std::size_t kExceptionFilterCount = 6;
 
 /// What the client learns about an exception filter.
 struct ExceptionFilterDef {
@@ -18,6 +18,7 @@ struct ExceptionFilterDef {
   dialect::Text label;
   dialect::Text description;
   bool is_default = false;
+  bool takes_condition = false;  ///< Whether it may have a condition, judged before the block.
 };
 
 const ExceptionFilterDef& definition(ExceptionFilter filter);

@@ -16,7 +16,7 @@ using dialect::Text;
 
 bool ExceptionFilters::judge_blocks() const {
   return is_on(ExceptionFilter::ToolChange) || is_on(ExceptionFilter::FirstCut) ||
-         (is_on(ExceptionFilter::Warnings) && !warnings.empty());
+         (is_on(ExceptionFilter::Warnings) && !warnings.empty()) || (is_on(ExceptionFilter::Run) && !of_run.empty());
 }
 
 bool ExceptionFilters::judge_motions(const simulation::TimedMachine& machine) const {
@@ -51,13 +51,21 @@ std::optional<Exception> find_overtravel(const kinematics::Move& move, const sim
                                       expressions::show_value(first.position), expressions::show_value(first.limit)));
 }
 
-std::optional<Exception> ExceptionFilters::find_warning(const running::Block& block, Language language) const {
-  const auto warning = warnings.find(block.line);
-  if (warning == warnings.end()) return std::nullopt;
-  return Exception{.filter = ExceptionFilter::Warnings,
-                   .code = std::string(dialect::definition(warning->second.id).code),
-                   .message = warning->second.message,
-                   .explanation = analyzer::explain(warning->second.id, language)};
+bool ExceptionFilters::counts(ExceptionFilter filter, const expressions::Moment& before) const {
+  if (!is_on(filter)) return false;
+  const auto& condition = conditions_[static_cast<std::size_t>(filter)];
+  return !condition || condition->holds_at(before);
+}
+
+/// The first of the findings on the line of a block.
+static std::optional<Exception> find_finding(ExceptionFilter filter, const std::multimap<std::size_t, Warning>& all,
+                                             const running::Block& block, Language language) {
+  const auto found = all.find(block.line);
+  if (found == all.end()) return std::nullopt;
+  return Exception{.filter = filter,
+                   .code = std::string(dialect::definition(found->second.id).code),
+                   .message = found->second.message,
+                   .explanation = analyzer::explain(found->second.id, language)};
 }
 
 static bool is_first_cut(const running::Block& block, const debuggee::BlockEffect& effect) {
@@ -65,16 +73,19 @@ static bool is_first_cut(const running::Block& block, const debuggee::BlockEffec
                                              [](const auto& move) { return move.kind != execution::MoveKind::Rapid; });
 }
 
-std::optional<Exception> ExceptionFilters::find_exception(const running::Block& block, const execution::Setup& setup,
-                                                          Language language) const {
-  if (is_on(ExceptionFilter::Warnings))
-    if (auto warning = find_warning(block, language)) return warning;
-  if (is_on(ExceptionFilter::ToolChange) && debuggee::changes_tool(block))
-    return exception_of(ExceptionFilter::ToolChange, std::string(kAnyToolChange.in(language)));
-  if (!is_on(ExceptionFilter::FirstCut)) return std::nullopt;
+std::optional<Exception> ExceptionFilters::find_exception(const running::Block& block,
+                                                          const expressions::Moment& before,
+                                                          const execution::Setup& setup, Language language) const {
+  using enum ExceptionFilter;
+  for (const auto& [filter, findings] : {std::pair(Run, &of_run), std::pair(Warnings, &warnings)})
+    if (counts(filter, before))
+      if (auto found = find_finding(filter, *findings, block, language)) return found;
+  if (counts(ToolChange, before) && debuggee::changes_tool(block))
+    return exception_of(ToolChange, std::string(kAnyToolChange.in(language)));
+  if (!counts(FirstCut, before)) return std::nullopt;
   const debuggee::BlockEffect effect = debuggee::effect_of(block, setup);
   if (effect.has_error || !is_first_cut(block, effect)) return std::nullopt;
-  return exception_of(ExceptionFilter::FirstCut, std::string(kFirstCut.in(language)));
+  return exception_of(FirstCut, std::string(kFirstCut.in(language)));
 }
 
 }  // namespace isocnc::breakpoints

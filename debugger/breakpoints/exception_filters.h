@@ -5,8 +5,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "debugger/breakpoints/exception_filter.h"
+#include "debugger/expressions/expression.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/timing.h"
@@ -21,7 +23,7 @@ struct Exception {
   std::string explanation;  ///< Full explanation of the code; may be empty.
 };
 
-/// A warning of the checker, at its line.
+/// A finding of the checker, or of a run, at its line.
 struct Warning {
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
   std::string message;
@@ -33,23 +35,32 @@ class ExceptionFilters {
   /// Warnings by line, from 0; empty until the checker has read the program.
   std::multimap<std::size_t, Warning> warnings;
 
+  /// What a run on the machine shows, by line, from 0; empty until that run has been made.
+  std::multimap<std::size_t, Warning> of_run;
+
   bool is_on(ExceptionFilter filter) const { return on_[static_cast<std::size_t>(filter)]; }
-  void turn_on(ExceptionFilter filter) { on_[static_cast<std::size_t>(filter)] = true; }
+  /// A condition counts for filters that take one. Without, the filter stops the run in any case.
+  void turn_on(ExceptionFilter filter, std::optional<expressions::Expression> condition = {}) {
+    on_[static_cast<std::size_t>(filter)] = true;
+    conditions_[static_cast<std::size_t>(filter)] = std::move(condition);
+  }
   void turn_all_off() { on_ = {}; }
 
   /// Whether find_exception() can find anything. It need not be called otherwise.
   bool judge_blocks() const;
-  /// A reason to stop before a block, other than where the machine goes in it.
-  std::optional<Exception> find_exception(const running::Block& block, const execution::Setup& setup,
-                                          dialect::Language language) const;
+  /// A reason to stop before a block, other than where the machine goes in it. `before` is the moment before the block.
+  std::optional<Exception> find_exception(const running::Block& block, const expressions::Moment& before,
+                                          const execution::Setup& setup, dialect::Language language) const;
 
   /// Whether find_overtravel() can find anything. It need not be called otherwise.
   bool judge_motions(const simulation::TimedMachine& machine) const;
 
  private:
-  std::optional<Exception> find_warning(const running::Block& block, dialect::Language language) const;
+  /// Whether the filter is on, and its condition holds.
+  bool counts(ExceptionFilter filter, const expressions::Moment& before) const;
 
   std::array<bool, kExceptionFilterCount> on_{};
+  std::array<std::optional<expressions::Expression>, kExceptionFilterCount> conditions_;
 };
 
 /// What the axis limits say about a motion as the machine makes it.

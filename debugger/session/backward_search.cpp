@@ -47,6 +47,10 @@ double BackwardSearch::part_searched() const {
   return 1 - static_cast<double>(searched_from_) / static_cast<double>(std::max<std::uint64_t>(start_, 1));
 }
 
+static expressions::Moment moment_before(const running::Block& block) {
+  return {.state = block.state, .registers = block.registers, .vgpl = block.vgpl, .line = block.line};
+}
+
 /// A block counts by itself, or by what it changes. In the second case the run stops after it.
 std::optional<BackwardSearch::Hit> BackwardSearch::judge(const running::Block& block) {
   const bool is_stop = stops_before(block);
@@ -54,13 +58,10 @@ std::optional<BackwardSearch::Hit> BackwardSearch::judge(const running::Block& b
   if (is_stop) return Hit{.block = block.number};
   const debuggee::Debuggee& debuggee = *state_.debuggee;
   const breakpoints::ExceptionFilters& filters = state_.exception_filters;
-  if (filters.judge_blocks() && filters.find_exception(block, debuggee.setup(), state_.language()))
+  if (filters.judge_blocks() &&
+      filters.find_exception(block, moment_before(block), debuggee.setup(), state_.language()))
     return Hit{.block = block.number};
   return std::nullopt;
-}
-
-static expressions::Moment moment_before(const running::Block& block) {
-  return {.state = block.state, .registers = block.registers, .vgpl = block.vgpl, .line = block.line};
 }
 
 /// Breakpoints in its line, or on its codes.

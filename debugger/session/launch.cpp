@@ -27,7 +27,7 @@ static debuggee::ProgramText read_program(const std::filesystem::path& file, Lan
   return std::get<debuggee::ProgramText>(std::move(text));
 }
 
-static running::RunOptions run_options(const LaunchOptions& launch, const Configuration& configuration) {
+running::RunOptions run_options(const LaunchOptions& launch, const Configuration& configuration) {
   running::RunOptions options;
   options.setup = configuration.machine.setup;
   options.vgpl = launch.vgpl;

@@ -25,7 +25,7 @@ static constexpr Text kGoingTo{"Going to line {}", "Verso la riga {}"};
 static constexpr Text kSearching{"Searching back", "Ricerca all'indietro"};
 
 RunLoop::RunLoop(rpc::Loop& loop, SessionState& state, Notifier& notifier)
-    : loop_(loop), state_(state), notifier_(notifier), stop_check_(state, notifier), warning_check_(loop, state) {}
+    : loop_(loop), state_(state), notifier_(notifier), stop_check_(state, notifier), program_check_(loop, state) {}
 
 void RunLoop::reset(const debuggee::FileWatch& file) {
   ++generation_;
@@ -34,18 +34,18 @@ void RunLoop::reset(const debuggee::FileWatch& file) {
   origin_.reset();
   has_started_ = false;
   stop_check_.expect_judgement();
-  warning_check_.forget();
+  program_check_.forget();
 }
 
 void RunLoop::start_program() {
   if (std::exchange(has_started_, true)) return;
-  warning_check_.start_if_needed();
+  program_check_.start_if_needed();
   post([this] { begin_program(); });
 }
 
 /// Waits for the checker first.
 void RunLoop::begin_program() {
-  if (warning_check_.is_running()) {
+  if (program_check_.is_running()) {
     const auto again = [this, generation = generation_] {
       if (generation == generation_ && state_.is_launched()) begin_program();
     };
@@ -75,7 +75,7 @@ void RunLoop::start(Activity activity) {
   notifier_.start_progress();
   restart_pace();
   if (activity != Activity::Running) stop_check_.forget_step_out();
-  warning_check_.start_if_needed();
+  program_check_.start_if_needed();
   ++generation_;
   schedule();
 }
@@ -90,7 +90,7 @@ void RunLoop::schedule(std::chrono::milliseconds delay) {
 
 void RunLoop::run_slice() {
   if (!state_.is_launched()) return;
-  if (warning_check_.is_running()) return schedule(kPace);
+  if (program_check_.is_running()) return schedule(kPace);
   const auto deadline = Clock::now() + kSlice;
   switch (activity_) {
     case Activity::None:

@@ -12,8 +12,8 @@
 #include "debugger/debuggee/pace.h"
 #include "debugger/session/backward_search.h"
 #include "debugger/session/notifier.h"
+#include "debugger/session/program_check.h"
 #include "debugger/session/stop_check.h"
-#include "debugger/session/warning_check.h"
 #include "lsp/rpc/loop.h"
 
 namespace isocnc::session {
@@ -99,7 +99,7 @@ class RunLoop {
   SessionState& state_;
   Notifier& notifier_;
   StopCheck stop_check_;
-  WarningCheck warning_check_;
+  ProgramCheck program_check_;
   debuggee::FileWatch file_watch_;
   debuggee::Pace pace_;
 

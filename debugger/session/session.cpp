@@ -52,6 +52,7 @@ void Session::begin(LaunchOptions options) {
   state_.journal = {};
   state_.exception.reset();
   state_.exception_filters.warnings.clear();
+  state_.exception_filters.of_run.clear();
   state_.breakpoints.forget_hits_from(0);
   run_loop_.reset(file_watch);
   report_moved_breakpoints();

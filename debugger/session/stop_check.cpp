@@ -76,7 +76,7 @@ std::optional<breakpoints::Exception> StopCheck::find_exception() const {
   if (!state_.exception_filters.judge_blocks()) return std::nullopt;
   const auto block = state_.debuggee->next();
   if (!block) return std::nullopt;
-  return state_.exception_filters.find_exception(*block, state_.debuggee->setup(), state_.language());
+  return state_.exception_filters.find_exception(*block, state_.moment(), state_.debuggee->setup(), state_.language());
 }
 
 /// Looks where the machine would really go, which the block alone does not tell.

@@ -258,7 +258,9 @@ class Examination {
     }
     search(places, course, rate);
     const Clearance end = distance(places.end(), pair.limit + kAhead * travel);
-    course.free_until = after + std::max(0.0, end.lower - pair.limit);
+    // Where both rest in contact, each stretch belongs to it.
+    const double margin = end.lower - pair.limit;
+    course.free_until = margin > 0 ? after + margin : -std::numeric_limits<double>::infinity();
   }
 
   Clearance distance_of(StretchPlaces& places, const BodyPair& pair, double s, double sufficient) const {

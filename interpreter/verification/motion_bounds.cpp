@@ -31,7 +31,7 @@ static double slope_bound(const Path& path, int first, double from, double to) {
   const double difference = (c(1).squaredNorm() - c(2).squaredNorm()) / 2;
   const double around = std::abs(path.omega) * std::sqrt(mean + std::hypot(difference, c(1).dot(c(2))));
   const double across = std::hypot(c(1).dot(c(3)), c(2).dot(c(3)));
-  const double is_helix = across <= 1e-9 * (1 + mean);
+  const bool is_helix = across <= 1e-9 * (1 + mean);
   return is_helix ? std::hypot(around, c(3).norm()) * (1 + 1e-9) : around + c(3).norm();
 }
 

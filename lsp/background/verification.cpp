@@ -77,7 +77,8 @@ void Job::run(const VerificationSubject& subject) const {
 std::shared_ptr<simulation::RunOutcome> Job::outcome_of(const VerificationSubject& subject) const {
   try {
     verification::VerifiedRun verified =
-        options.run(subject.text, *subject.settings.program, [this] { return cancelled->load(); });
+        options.run(subject.text, *subject.settings.program, subject.settings.scene().get(),
+                    {.stop = [this] { return cancelled->load(); }});
     if (!cancelled->load()) return std::make_shared<simulation::RunOutcome>(std::move(verified.outcome));
   } catch (const std::exception&) {
     return nullptr;

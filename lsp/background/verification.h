@@ -31,7 +31,7 @@ struct VerificationOptions {
   std::size_t max_size = system::has_threads() ? kSlowSize : kShortSize;       ///< Longer ones wait for saving; bytes.
   std::size_t max_saved_size = system::has_threads() ? kAnySize : kShortSize;  ///< Longer ones are not verified; bytes.
   std::function<verification::VerifiedRun(std::string_view text, const selection::ProgramSettings& settings,
-                                          const std::function<bool()>& stop)>
+                                          const verification::Scene* scene, const selection::VerifyOptions& options)>
       run = selection::verified;
 
   /// Takes about 10 s without a scene: 2,000,000 lines of motions have 50 MB, and take 2 s.

@@ -10,8 +10,6 @@ namespace isocnc::documents {
 
 using simulation::RunFinding;
 
-static constexpr std::size_t kMaxFindings = KeptRun::kMaxFindings;
-
 /// Whether each finding is the first of its mistake.
 static std::vector<bool> are_first(const std::vector<RunFinding>& findings) {
   std::vector<bool> first;

@@ -13,6 +13,7 @@ struct SettingsStore::Generation {
   configuration::Configurations none{{.file = {}, .none = true}, system::user_language()};
   selection::SettingsFinder settings{found, {}};
   selection::SettingsFinder settings_of_none{none, {}};
+  configuration::Scenes scenes{system::user_language()};
   std::set<std::filesystem::path> claimed;
 };
 
@@ -32,8 +33,10 @@ bool SettingsStore::claim(const std::filesystem::path& file) {
 DocumentSettings SettingsStore::of(const std::optional<std::filesystem::path>& program) {
   const auto generation = present();
   const std::lock_guard lock(generation->mutex);
-  if (!program) return {generation, &generation->settings_of_none.of({}), &generation->none.in_folder({})};
-  return {generation, &generation->settings.of(*program), &generation->found.in_folder(program->parent_path())};
+  if (!program)
+    return {generation, &generation->settings_of_none.of({}), &generation->none.in_folder({}), &generation->scenes, {}};
+  return {generation, &generation->settings.of(*program), &generation->found.in_folder(program->parent_path()),
+          &generation->scenes, *program};
 }
 
 void SettingsStore::forget() {

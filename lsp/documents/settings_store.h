@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "analyzer/selection/program_settings.h"
+#include "interpreter/configuration/scenes.h"
 
 namespace isocnc::documents {
 
@@ -14,6 +15,11 @@ struct DocumentSettings {
   std::shared_ptr<const void> owner;  ///< Keeps the objects alive that the other members point to.
   const selection::ProgramSettings* program = nullptr;
   const configuration::Configuration* configuration = nullptr;
+  configuration::Scenes* scenes = nullptr;
+  std::filesystem::path file;  ///< Of the program; empty without one.
+
+  /// What surrounds the program; null if nothing is known of it. May read files.
+  std::shared_ptr<const verification::Scene> scene() const { return scenes->of(*configuration, file); }
 };
 
 /// The settings of programs, from the configuration files. Reads each file once, until forget().

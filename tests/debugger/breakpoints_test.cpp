@@ -176,6 +176,19 @@ Stops stops_of(DebugClient& client) {
   return stops;
 }
 
+/// Lines at which exceptions stop a run, forward and then backward from the line `end`.
+Stops stops_before(DebugClient& client, int end) {
+  client.set_lines({end});
+  Stops stops;
+  for (Json stopped = client.run("configurationDone"); stopped.at("reason") == "exception";
+       stopped = client.run("continue"))
+    stops.on.push_back(client.line());
+  EXPECT_EQ(client.line(), end);
+  client.set_lines({});
+  while (client.run("reverseContinue").at("reason") != "entry") stops.back.push_back(client.line());
+  return stops;
+}
+
 TEST(Breakpoints, FunctionBreakpointsWaitForCodes) {
   DebugClient client;
   client.launch(kPart);
@@ -389,6 +402,87 @@ TEST(Breakpoints, TravelStopsTheRunBeforeTheMoveThatExceedsIt) {
               HasSubstr("100.5"));
 }
 
+/// X leaves its travel twice, the second time on two lines, and the entry of the contour gouges.
+constexpr const char* kLimitedMachine = R"({"machine": {
+    "axes": {"X": {"min": -10, "max": 100}},
+    "tools": [{"head": 1, "holder": 1, "tool": 1, "radius": 10, "length": 40}]}})";
+constexpr const char* kOutsideProgram =
+    "M06 T101001\n"
+    "G00 X130 Y0 ; 2\n"
+    "X30 Y20\n"
+    "X40\n"
+    "X131 ; 5\n"
+    "Y30\n"
+    "X30 Y20\n"
+    "G41 G01 X0 Y0 F6000 ; 8\n"
+    "Y45\n"
+    "G40\n"
+    "M02\n";
+
+TEST(Breakpoints, FindingsOfTheMachineStopTheRunBeforeTheirBlocks) {
+  DebugClient client;
+  client.write("isocnc.json", kLimitedMachine);
+  client.launch(kOutsideProgram);
+  client.request("setExceptionBreakpoints", {{"filters", {"run"}}});
+  const Stops stops = stops_before(client, 10);
+  EXPECT_THAT(stops.on, ElementsAre(2, 5, 8));
+  EXPECT_THAT(stops.back, ElementsAre(8, 5, 2));
+}
+
+TEST(Breakpoints, FindingsOfTheMachineAreThoseOfARun) {
+  DebugClient client;
+  client.write("isocnc.json", kLimitedMachine);
+  client.launch(kOutsideProgram);
+  client.request("setExceptionBreakpoints", {{"filters", {"run"}}});
+  const Json stopped = client.run("configurationDone");
+  EXPECT_EQ(stopped.at("reason"), "exception");
+  EXPECT_EQ(stopped.at("text"), "E160");
+  const Json info = client.request("exceptionInfo", {{"threadId", 1}});
+  EXPECT_EQ(info.at("exceptionId"), "E160");
+  EXPECT_EQ(info.at("description"), "the machine's X leaves its travel: it goes to 130, and the travel ends at 100");
+  EXPECT_EQ(client.run("continue").at("text"), "E160");
+  EXPECT_EQ(client.line(), 5);
+}
+
+/// The run takes VGPL and registers as the launch gives them, and comments silence it.
+TEST(Breakpoints, FindingsOfTheMachineFollowTheLaunch) {
+  const char* const program =
+      "M06 T101001\nIF VGPL = 1 GOTO N10\nG00 X130\nM02\nN10 G00 X131 ;isolint: ignore E160\nX30\nX40\nX132\nM02\n";
+  DebugClient client;
+  client.write("isocnc.json", kLimitedMachine);
+  client.launch(program, {{"vgpl", 1}});
+  client.request("setExceptionBreakpoints", {{"filters", {"run"}}});
+  EXPECT_EQ(client.run("configurationDone").at("text"), "E160");
+  EXPECT_EQ(client.line(), 8);
+  client.request("continue");
+  client.event("terminated");
+  EXPECT_FALSE(client.has_event("stopped"));
+}
+
+TEST(Breakpoints, FiltersStopTheRunWhereTheirConditionHolds) {
+  DebugClient client;
+  client.write("isocnc.json", kLimitedMachine);
+  client.launch(kOutsideProgram);
+  const auto set = [&](const std::string& filter, const std::string& condition) {
+    const Json options = Json::array({{{"filterId", filter}, {"condition", condition}}});
+    return client.request("setExceptionBreakpoints", {{"filters", Json::array()}, {"filterOptions", options}})
+        .at("breakpoints")[0];
+  };
+  EXPECT_EQ(set("errors", "X > 1").at("verified"), false);
+  EXPECT_THAT(set("errors", "X > 1").at("message").get<std::string>(), HasSubstr("errors"));
+  EXPECT_EQ(set("run", "X >").at("verified"), false);
+  EXPECT_EQ(set("run", "X = 40").at("verified"), true);
+  EXPECT_EQ(client.run("configurationDone").at("text"), "E160");
+  EXPECT_EQ(client.line(), 5);
+  set("toolChange", "T = 7");
+  client.set_lines({10});
+  EXPECT_EQ(client.run("continue").at("reason"), "breakpoint");
+  set("run", "X = 40");
+  client.set_lines({});
+  EXPECT_EQ(client.run("reverseContinue").at("reason"), "exception");
+  EXPECT_EQ(client.line(), 5);
+}
+
 /// docs/motion.md, "Where the tip is": home is where the spindle nose stands, and M06 moves no joint.
 constexpr const char* kTallMachine = R"({"machine": {
     "home": {"z": 450}, "axes": {"X": {"min": -100, "max": 100}, "Z": {"min": 0, "max": 460}},
@@ -401,15 +495,7 @@ Stops stops_at_limits(const std::string& program, int end) {
   client.write("isocnc.json", kTallMachine);
   client.launch(program);
   client.request("setExceptionBreakpoints", {{"filters", {"limits"}}});
-  client.set_lines({end});
-  Stops stops;
-  for (Json stopped = client.run("configurationDone"); stopped.at("reason") == "exception";
-       stopped = client.run("continue"))
-    stops.on.push_back(client.line());
-  EXPECT_EQ(client.line(), end);
-  client.set_lines({});
-  while (client.run("reverseContinue").at("reason") != "entry") stops.back.push_back(client.line());
-  return stops;
+  return stops_before(client, end);
 }
 
 TEST(Breakpoints, TravelIsThatOfTheMachineAfterAToolChange) {

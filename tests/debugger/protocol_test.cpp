@@ -31,9 +31,10 @@ TEST(Protocol, SaysWhatItCan) {
                                  "supportsSteppingGranularity",
                                  "supportsLoadedSourcesRequest",
                                  "supportsValueFormattingOptions",
-                                 "supportsCancelRequest"})
+                                 "supportsCancelRequest",
+                                 "supportsExceptionFilterOptions"})
     EXPECT_EQ(capabilities.value(name, false), true) << name;
-  EXPECT_EQ(capabilities.at("exceptionBreakpointFilters").size(), 5u);
+  EXPECT_EQ(capabilities.at("exceptionBreakpointFilters").size(), 6u);
 }
 
 /// Whatever comes, an answer or a word to the user comes back, and the adapter goes on.

@@ -10,7 +10,8 @@ namespace isocnc::lsp {
 
 background::VerificationOptions without_verification() {
   background::VerificationOptions options;
-  options.run = [](std::string_view, const selection::ProgramSettings&, const std::function<bool()>&) {
+  options.run = [](std::string_view, const selection::ProgramSettings&, const verification::Scene*,
+                   const selection::VerifyOptions&) {
     return verification::VerifiedRun();
   };
   return options;

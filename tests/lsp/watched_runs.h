@@ -24,7 +24,9 @@ class WatchedRuns {
     options.pause = std::chrono::milliseconds(0);
     options.slow = std::chrono::hours(1);
     options.run = [this](std::string_view text, const selection::ProgramSettings& settings,
-                         const std::function<bool()>& stop) { return run(text, settings, stop); };
+                         const verification::Scene* scene, const selection::VerifyOptions& how) {
+      return run(text, settings, scene, how);
+    };
     return options;
   }
 
@@ -58,17 +60,17 @@ class WatchedRuns {
   static constexpr std::chrono::seconds kLongest{120};
 
   verification::VerifiedRun run(std::string_view text, const selection::ProgramSettings& settings,
-                                const std::function<bool()>& stop) {
+                                const verification::Scene* scene, const selection::VerifyOptions& how) {
     std::unique_lock lock(mutex_);
     texts_.emplace_back(text);
     changed_.notify_all();
-    while (is_held_ && !stop()) changed_.wait_for(lock, std::chrono::milliseconds(1));
-    if (stop()) {
+    while (is_held_ && !how.stop()) changed_.wait_for(lock, std::chrono::milliseconds(1));
+    if (how.stop()) {
       ++stopped_;
       changed_.notify_all();
     }
     lock.unlock();
-    return selection::verified(text, settings, stop);
+    return selection::verified(text, settings, scene, how);
   }
 
   std::mutex mutex_;
