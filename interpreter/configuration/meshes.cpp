@@ -8,7 +8,7 @@
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/solids/clearance.h"
 #include "interpreter/solids/stl.h"
-#include "interpreter/system/file_bytes.h"
+#include "interpreter/system/source_file.h"
 
 namespace isocnc::configuration {
 

@@ -22,6 +22,39 @@ std::string Mistake::message(Language language) const {
   return fmt::format("{}{}{}{}", key, key.empty() ? "" : ": ", said, dialect::did_you_mean(meant, language));
 }
 
+static bool ends_line(std::string_view text, std::size_t i) {
+  return text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n'));
+}
+
+LineColumn place_of(std::size_t at, std::string_view text) {
+  LineColumn place;
+  std::size_t begin = 0;
+  at = std::min(at, text.size());
+  for (std::size_t i = 0; i < at; ++i) {
+    if (!ends_line(text, i)) continue;
+    ++place.line;
+    begin = i + 1;
+  }
+  place.column = text::column_of(text.substr(begin, std::min(text.size() - begin, at - begin + 4)), at - begin);
+  return place;
+}
+
+DescriptionPlace PlaceFinder::of(std::size_t at) {
+  if (at < at_) {
+    at_ = 0;
+    place_ = {};
+  }
+  for (; at_ < std::min(at, text_.size()); ++at_) {
+    if (ends_line(text_, at_)) {
+      place_ = {.shown = {.line = place_.shown.line + 1}};
+      continue;
+    }
+    ++place_.byte;
+    if (!text::is_inside_character(text_[at_])) ++place_.shown.column;
+  }
+  return place_;
+}
+
 std::string located_message(std::string_view file, const LineColumn& place, const Mistake& mistake, Language language) {
   return text::printable(fmt::format("{}:{}:{}: {}: {}", file, place.line, place.column,
                                      dialect::severity_name(dialect::Severity::Error, language),

@@ -538,9 +538,8 @@ ReadConfiguration read_configuration(std::string_view text, const std::filesyste
 }
 
 ReadSetup read_setup(std::string_view text) {
-  const std::vector<Key>& keys = all_keys();
   static const Key& kSetups =
-      *std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.path == "setups"; });
+      *std::find_if(all_keys().begin(), all_keys().end(), [](const Key& key) { return key.path == "setups"; });
   ReadConfiguration result;
   result.configuration.setups.emplace_back();
   read_text(text, &kSetups, result);

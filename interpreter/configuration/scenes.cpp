@@ -8,7 +8,6 @@
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/configuration/read.h"
 #include "interpreter/dialect/diagnostic_id.h"
-#include "interpreter/system/file_bytes.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/text/unicode.h"
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "interpreter/dialect/diagnostic.h"
@@ -18,6 +21,29 @@ struct GivenName {
   std::string_view in(Language language) const;
 
   friend bool operator==(const GivenName&, const GivenName&) = default;
+};
+
+/// A place in a file beside the program, such as where a configuration describes a clamp.
+struct FilePlace {
+  std::string file;          ///< As shown to users.
+  std::size_t line = 0;      ///< From 0.
+  std::uint32_t column = 0;  ///< Byte of the line, from 0.
+
+  friend auto operator<=>(const FilePlace&, const FilePlace&) = default;
+};
+
+/// Such a place as a number, so that findings, which hold no text, can tell it. Equal places have equal numbers. Places
+/// stay until the process ends; there are few.
+struct GivenPlace {
+  std::uint32_t number = 0;  ///< 0: none.
+
+  /// May be called by any thread.
+  static GivenPlace of(const FilePlace& place);
+  explicit operator bool() const { return number != 0; }
+  /// The place; stays valid. There must be one. May be called by any thread.
+  const FilePlace& place() const;
+
+  friend bool operator==(const GivenPlace&, const GivenPlace&) = default;
 };
 
 }  // namespace isocnc::dialect

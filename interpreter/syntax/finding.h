@@ -10,7 +10,7 @@
 
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/foreign_form.h"
-#include "interpreter/dialect/given_place.h"
+#include "interpreter/dialect/given_name.h"
 
 namespace isocnc::syntax {
 

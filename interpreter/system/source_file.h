@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -55,6 +56,22 @@ class SourceFile {
   std::unique_ptr<const MappedFile> mapped_;
   ReadBytes read_;  // The bytes if the file is not mapped.
 };
+
+/// Why a file has no bytes for its reader.
+struct FileBytesProblem {
+  enum class Kind : std::uint8_t {
+    Unreadable,  ///< The system refuses, as `message` says.
+    NotRegular,  ///< A folder, a pipe, a device.
+    TooLarge,    ///< More bytes than wanted.
+  };
+
+  Kind kind = Kind::Unreadable;
+  std::string message;  ///< `cannot read: Permission denied`; empty for the other kinds.
+};
+
+/// Reads a regular file of any content, of at most `limit` bytes. Never waits for a pipe, and reads no device.
+std::variant<std::string, FileBytesProblem> read_bytes(const std::filesystem::path& path, std::size_t limit,
+                                                       dialect::Language language);
 
 /// A UTF-8 byte-order mark, for writing it back.
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";

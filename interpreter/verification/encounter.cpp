@@ -157,7 +157,7 @@ double highest(const solids::RevolvedBody& body, const AxisPlacement& at, const 
 }
 
 /// A plane before an obstacle: n . p is at least `low` for all of its points.
-struct Plane {
+struct SeparatingPlane {
   Vec3 n;
   double low = 0;
 };
@@ -168,7 +168,7 @@ struct PairCourse {
   std::size_t index = 0;
   /// The travel of its group up to which it is proven to stay beyond its limit.
   double free_until = -std::numeric_limits<double>::infinity();
-  std::optional<Plane> plane;  ///< That has been between both last.
+  std::optional<SeparatingPlane> plane;  ///< That has been between both last.
 };
 
 /// Pairs whose speeds have the same kind of bound.
@@ -279,17 +279,17 @@ class Examination {
 
   /// The plane through the nearest point of an obstacle, or of the box around a mesh, across the shortest way between
   /// both bodies.
-  std::optional<Plane> plane_between(const BodyPair& pair, const Clearance& nearest) const {
+  std::optional<SeparatingPlane> plane_between(const BodyPair& pair, const Clearance& nearest) const {
     if (!(nearest.upper > 0 && std::isfinite(nearest.upper))) return {};
     const Vec3 between = nearest.on_obstacle - nearest.on_body;
     const double length = between.norm();
     if (!(length > 0)) return {};
     const Vec3 n = between / length;
-    return Plane{n, -highest(bodies_.obstacles[pair.obstacle].shape, -n)};
+    return SeparatingPlane{n, -highest(bodies_.obstacles[pair.obstacle].shape, -n)};
   }
 
   /// On a straight shift, the gap changes linearly; on another one as the path does.
-  PlaneGap plane_gap(StretchPlaces& places, const BodyPair& pair, const Plane& plane) const {
+  PlaneGap plane_gap(StretchPlaces& places, const BodyPair& pair, const SeparatingPlane& plane) const {
     const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
     const MovingPart& part = bodies_.parts[pair.part];
     const auto gap = [&](double s) {

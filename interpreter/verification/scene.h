@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "interpreter/dialect/given_place.h"
+#include "interpreter/dialect/given_name.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/kinematics/links.h"
 #include "interpreter/solids/mesh.h"

@@ -59,6 +59,8 @@ class Snapshot {
   const rules::CheckSetup& check_setup() const { return document_.settings().program->setup; }
   const selection::Selection& selection() const { return document_.settings().program->selection; }
   const configuration::Configuration& configuration() const { return *document_.settings().configuration; }
+  /// All of the above, for background requests.
+  const DocumentSettings& settings() const { return document_.settings(); }
   /// Keeps the three objects above alive after the call, for background requests.
   std::shared_ptr<const void> settings_owner() const { return document_.settings().owner; }
 

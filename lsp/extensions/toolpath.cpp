@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -69,11 +70,27 @@ struct ToolpathTask {
 
 std::string ToolpathTask::compute(const std::function<bool()>& stop) {
   const simulation::TimedMachine& machine = program.machine().timed;
+  std::optional<verification::Verifier> verifier;
+  subject.scene = program.scene();
+  if (subject.scene) {
+    subject.origin = program.workpiece_origin();
+    verifier.emplace(*subject.scene, machine, subject.origin);
+  }
   plot::PathRecording recording(subject, machine);
   plot::Toolpath path(machine, subject.home, [&](const plot::ToolpathStep& step) { recording.add(step); });
-  const running::RunResult result = program.run(
-      stop, {.event = [&](const simulation::TimedEvent& timed) { path.add(timed); },
-             .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) { path.add(stretch); }});
+  const running::RunResult result =
+      program.run(stop, {.event =
+                             [&](const simulation::TimedEvent& timed) {
+                               path.add(timed);
+                               if (verifier) verifier->take(timed);
+                             },
+                         .stretch =
+                             [&](const motion::Stretch& stretch, const simulation::TimedEvent& timed) {
+                               path.add(stretch);
+                               if (verifier) verifier->take(stretch, timed);
+                             }});
+  verification::VerifiedRun verified;
+  if (verifier) verified = verification::verified_outcome({}, *verifier, program.text(), result);
   const auto now = std::make_shared<SentPath>(SentPath{.id = 0,
                                                        .steps = std::string(recording.steps()),
                                                        .points = std::string(recording.points()),
@@ -87,7 +104,7 @@ std::string ToolpathTask::compute(const std::function<bool()>& stop) {
   }
   return fmt::format(
       R"({{"resultId":"{}","version":{},"facts":{},"steps":{},"points":{},"turns":{}}})", now->id, program.version(),
-      recording.facts(path, {result, {}}), stream(now->steps, before ? &before->steps : nullptr),
+      recording.facts(path, {result, verified}), stream(now->steps, before ? &before->steps : nullptr),
       stream(now->points, before ? &before->points : nullptr), stream(now->turns, before ? &before->turns : nullptr));
 }
 

@@ -1,7 +1,11 @@
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "interpreter/configuration/make_scene.h"
 #include "interpreter/configuration/read.h"
 #include "interpreter/configuration/show.h"
 #include "interpreter/running/runner.h"
@@ -38,20 +42,86 @@ static void run_on(const configuration::MachineConfiguration& machine, bool is_s
   require(!summary.json("-", dialect::Language::English).empty(), "a run has its summary");
 }
 
+static void require_mistakes_within(std::string_view text, const std::vector<configuration::Mistake>& mistakes) {
+  for (const configuration::Mistake& mistake : mistakes) {
+    require(mistake.at <= text.size(), "a mistake is within the file");
+    require(!mistake.message(dialect::Language::English).empty(), "a mistake has its message");
+  }
+}
+
+static void require_body(const verification::SceneBody& body) {
+  const solids::BoundingBox box = verification::bounds(body.shape);
+  require(box.min().allFinite() && box.max().allFinite(), "a body is somewhere");
+  require((box.max() - box.min()).minCoeff() >= 0, "a body is not inside out");
+}
+
+/// All of a tool is between the tip and the spindle nose, and the holder ends there.
+static void require_tool(const verification::ToolBodies& tool) {
+  const double slack = 1e-9 * tool.length;
+  for (const auto* const body : {&tool.cutter, &tool.shank, &tool.holder})
+    require(!*body || ((*body)->bottom() >= -slack && (*body)->top() <= tool.length + slack), "a tool has its length");
+  require(!tool.holder || std::abs(tool.holder->top() - tool.length) <= slack, "a holder ends at the nose");
+  require(!tool.shank || !tool.holder || tool.shank->top() <= tool.holder->bottom() + slack,
+          "a shank ends at the holder");
+}
+
+/// What a file without mistakes describes has bodies. All meshes are one triangle.
+static void make_scene(const configuration::MachineConfiguration& machine,
+                       const std::optional<configuration::LocatedSetup>& setup) {
+  static const auto kMesh = std::make_shared<const solids::Mesh>(
+      std::vector<solids::Triangle>{{{geometry::Vec3(0, 0, 0), geometry::Vec3(1, 0, 0), geometry::Vec3(0, 1, 0)}}});
+  const verification::Scene scene =
+      configuration::make_scene(machine, setup, [](const configuration::MeshRequest& request) {
+        require(!request.mesh.name.starts_with('/') && !request.mesh.name.starts_with(".."),
+                "a mesh is below its file");
+        return kMesh;
+      });
+  require(scene.machine.size() == machine.bodies.size(), "each body of the machine is there");
+  for (const verification::SceneBody& body : scene.machine) require_body(body);
+  for (const verification::SceneBody& body : scene.setup) require_body(body);
+  for (const auto& [code, tool] : scene.tools) require_tool(tool);
+  require(scene.nose.has_value() == machine.nose.has_value(), "the nose is there");
+  if (!setup) return;
+  const std::size_t parts = setup->setup.fixtures.size() + (setup->setup.stock ? 1 : 0) +
+                            (setup->setup.spoilboard ? 1 : 0) + (setup->setup.target ? 1 : 0);
+  require(scene.setup.size() == parts, "each body of the setup is there");
+}
+
+static void make_scenes(const configuration::Configuration& configuration) {
+  make_scene(configuration.machine, std::nullopt);
+  for (const configuration::DescribedSetup& setup : configuration.setups)
+    make_scene(configuration.machine,
+               configuration::LocatedSetup{.setup = setup, .file = configuration.file, .folder = configuration.folder});
+}
+
+/// The same text as the file beside a program.
+static void read_as_setup(std::string_view text) {
+  const configuration::ReadSetup read = configuration::read_setup(text);
+  require_mistakes_within(text, read.mistakes);
+  if (!read.mistakes.empty()) return;
+  configuration::Configuration configuration;
+  configuration.setups.push_back(read.setup);
+  make_scenes(configuration);
+}
+
 /// What is read can be shown, and read again it is the same.
 static void read_twice(std::string_view text) {
   const configuration::ReadConfiguration read = configuration::read_configuration(text, "/shop");
+  require_mistakes_within(text, read.mistakes);
   if (!read.mistakes.empty()) return;
   const std::string shown = configuration::to_json(read.configuration);
   const configuration::ReadConfiguration again = configuration::read_configuration(shown, "/shop");
   require(again.mistakes.empty(), "what is shown is right");
   require(configuration::to_json(again.configuration) == shown, "what is shown says all of it");
+  make_scenes(read.configuration);
   run_on(read.configuration.machine, text.size() % 16 == 0);  // How far axes go takes long to find out.
 }
 
 }  // namespace isocnc::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  isocnc::fuzz::read_twice(isocnc::fuzz::as_text(data, size));
+  const std::string_view text = isocnc::fuzz::as_text(data, size);
+  isocnc::fuzz::read_as_setup(text);
+  isocnc::fuzz::read_twice(text);
   return 0;
 }

@@ -11,9 +11,7 @@ namespace isocnc::lsp {
 background::VerificationOptions without_verification() {
   background::VerificationOptions options;
   options.run = [](std::string_view, const selection::ProgramSettings&, const verification::Scene*,
-                   const selection::VerifyOptions&) {
-    return verification::VerifiedRun();
-  };
+                   const selection::VerifyOptions&) { return verification::VerifiedRun(); };
   return options;
 }
 

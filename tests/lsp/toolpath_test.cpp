@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <random>
 #include <string>
 
+#include "lsp/protocol/uri.h"
 #include "session.h"
+#include "tests/support/temporary_folder.h"
 
 /// isocnc/toolpath: the path of the tool tip, and its changes after an edit.
 namespace isocnc::lsp {
@@ -98,6 +101,23 @@ TEST(Toolpath, AnUnknownPreviousGetsTheWhole) {
   session.start();
   session.open(kUri, "M06 T101001\nG00 X10\nM02\n");
   EXPECT_FALSE(ask(session, "no such")["steps"].contains("start"));
+}
+
+TEST(Toolpath, HasWhatSurroundsTheProgram) {
+  const support::TemporaryFolder folder;
+  folder.write("isocnc.json", R"({"machine": {"kinematics": {"type": "three-axis"}, "home": {"z": 300}, "tools": [
+    {"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 10, "shape": "flat"}]}})");
+  folder.write("part.setup.json", R"({"fixtures": [{"name": "clamp 1", "box": [[100, -20, 0], [140, 20, 30]]}]})");
+  const std::string uri = protocol::uri_of(std::filesystem::canonical(folder.path()) / "part.iso");
+  Session session;
+  session.start();
+  session.open(uri, "M06 T101001\nG92 X50 Y0 Z0\nG00 X0 Y0 Z10\nX200\nM02\n");
+  const Json facts = session.request("isocnc/toolpath", {{"textDocument", {{"uri", uri}}}})["facts"];
+  EXPECT_EQ(facts["scene"]["bodies"][0]["name"], "clamp 1");
+  EXPECT_EQ(facts["scene"]["bodies"][0]["at"], Json::array({50, 0, 0}));
+  EXPECT_EQ(facts["contacts"][0]["code"], "E152");
+  EXPECT_EQ(facts["contacts"][0]["line"], 4);
+  EXPECT_EQ(facts["certificate"].get<std::string>().substr(0, 28), "verified: 2 motions, 1 conta");
 }
 
 TEST(Toolpath, TheProgramsParameterDecides) {

@@ -66,7 +66,7 @@ class VerificationTest : public testing::Test {
     session_.notify("workspace/didChangeConfiguration", {{"settings", {{"isocnc", settings}}}});
   }
   /// The next diagnostics that are pushed for the present text.
-  std::vector<std::string> pushed() { return of_machine(session_.diagnostics(uri_.c_str(), version_)); }
+  std::vector<std::string> pushed() { return of_machine(session_.diagnostics(uri_, version_)); }
   Json pull() { return session_.request("textDocument/diagnostic", document_params(uri_.c_str())); }
   /// What was sent before has been handled when this returns, timers without a length included.
   void settle() {
@@ -110,6 +110,21 @@ TEST_F(VerificationTest, ReplacesWhatTheTextConcludesFromTheTip) {
   const Json edited = session_.diagnostics(uri_, version_);
   EXPECT_EQ(edited[0]["code"], "W130");
   EXPECT_EQ(edited[0]["range"]["start"]["line"], 2);
+}
+
+TEST_F(VerificationTest, KnowsTheSetupBesideTheProgram) {
+  folder_.write("isocnc.json", R"({"machine": {"kinematics": {"type": "three-axis"}, "home": {"z": 300}, "tools": [
+    {"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 10, "shape": "flat"}]}})");
+  start({}, {{"verify", "onSave"}});
+  open("M06 T101001\nG00 X0 Y0 Z10\nX200\nZ50\nM02\n");
+  EXPECT_THAT(pushed(), IsEmpty());
+  runs_.wait_for_starts(1);
+  folder_.write("part.setup.json", R"({"fixtures": [{"name": "clamp 1", "box": [[100, -20, 0], [140, 20, 30]]}]})");
+  const std::string setup = uri_.substr(0, uri_.size() - 4) + ".setup.json";
+  session_.notify("workspace/didChangeWatchedFiles", {{"changes", Json::array({{{"uri", setup}, {"type", 1}}})}});
+  std::vector<std::string> found;
+  for (int i = 0; i < 4 && found.empty(); ++i) found = pushed();
+  EXPECT_THAT(found, ElementsAre("E152@2"));
 }
 
 TEST_F(VerificationTest, FadesWhileTheTextHasChangedSince) {

@@ -24,9 +24,8 @@ class WatchedRuns {
     options.pause = std::chrono::milliseconds(0);
     options.slow = std::chrono::hours(1);
     options.run = [this](std::string_view text, const selection::ProgramSettings& settings,
-                         const verification::Scene* scene, const selection::VerifyOptions& how) {
-      return run(text, settings, scene, how);
-    };
+                         const verification::Scene* scene,
+                         const selection::VerifyOptions& how) { return run(text, settings, scene, how); };
     return options;
   }
 

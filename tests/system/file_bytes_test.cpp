@@ -1,4 +1,4 @@
-#include "interpreter/system/file_bytes.h"
+#include "interpreter/system/source_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

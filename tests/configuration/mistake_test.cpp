@@ -1,4 +1,4 @@
-#include "interpreter/configuration/text_place.h"
+#include "interpreter/configuration/mistake.h"
 
 #include <gtest/gtest.h>
 
