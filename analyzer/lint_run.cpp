@@ -140,7 +140,7 @@ check::Report LintRun::verified(check::Report found, const CheckedFile& checked,
                                 const selection::FindingFilter& filter) {
   const std::string_view text = checked.text();
   const selection::ProgramSettings& settings = checked.settings;
-  const auto scene = scenes_.of(settings.configuration, checked.name);
+  const auto scene = options_.source.none ? nullptr : scenes_.of(settings.configuration, checked.name);
   const int jobs = jobs_for(text);
   const auto together = [jobs](const std::function<void()>& work) { check::side_by_side(jobs, work); };
   const verification::VerifiedRun run = selection::verified(text, settings, scene.get(), {.together = together});

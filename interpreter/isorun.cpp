@@ -402,7 +402,7 @@ std::optional<RunSettings> find_settings(RunCommandOptions& options) {
   surrounded.machine = machine.machine;
   configuration::Scenes scenes(options.reader_language());
   RunSettings found_settings{machine.machine, configuration.file, settings.selection, settings.setup,
-                             options.restart_at ? nullptr : scenes.of(surrounded, program)};
+                             options.restart_at || options.source.none ? nullptr : scenes.of(surrounded, program)};
   const std::vector<std::string> mistakes = scenes.mistakes(options.reader_language());
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
   return mistakes.empty() ? std::optional(std::move(found_settings)) : std::nullopt;

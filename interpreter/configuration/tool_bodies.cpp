@@ -75,8 +75,7 @@ MaybeObjection contradiction_in(const Tool& tool) {
   if (tool.profile && !tool.shape.empty()) return objection("profile", mistakes::kSecondShape, {std::string("shape")});
   if (tool.corner_radius.value_or(0) > 0 && tool.shape != "bull")
     return objection("cornerRadius", mistakes::kNotOfShape, {std::string("bull")});
-  if (tool.tip_angle && tool.shape != "cone" && tool.shape != "drill")
-    return objection("tipAngle", mistakes::kNotOfShape, {dialect::Text{"cone or drill", "cone o drill"}});
+  // Lists of tools from CAM systems give every tool a tip angle; where the shape has none, it means nothing.
   return std::nullopt;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "interpreter/dialect/diagnostic.h"
 
@@ -29,7 +29,10 @@ struct FilePlace {
   std::size_t line = 0;      ///< From 0.
   std::uint32_t column = 0;  ///< Byte of the line, from 0.
 
-  friend auto operator<=>(const FilePlace&, const FilePlace&) = default;
+  friend bool operator==(const FilePlace&, const FilePlace&) = default;
+  friend bool operator<(const FilePlace& a, const FilePlace& b) {
+    return std::tie(a.file, a.line, a.column) < std::tie(b.file, b.line, b.column);
+  }
 };
 
 /// Such a place as a number, so that findings, which hold no text, can tell it. Equal places have equal numbers. Places

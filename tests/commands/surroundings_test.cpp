@@ -107,7 +107,8 @@ TEST_F(Surroundings, AreCertifiedByIsorun) {
   EXPECT_THAT(italian.out, HasSubstr("verificato: 4 movimenti, 0 contatti; nulla di più vicino di 0.01 mm sfugge "
                                      "nell'attrezzaggio di isocnc.json\n"));
   for (const CommandResult& each : {hit, italian}) EXPECT_THAT(each.out, Not(HasSubstr("safe")));
-  folder_.write("gaps.iso", "M06 T101002\nG01 X10 F1000\nM06 T101003\nG01 X10\nM06 T101001\nG01 Z10 F1000\nG02 X5\nM02\n");
+  folder_.write("gaps.iso",
+                "M06 T101002\nG01 X10 F1000\nM06 T101003\nG01 X10\nM06 T101001\nG01 Z10 F1000\nG02 X5\nM02\n");
   EXPECT_THAT(run({"isorun", "--verify", "gaps.iso"}).out,
               HasSubstr("; not verified: T101002 has no shape, T101003 has no length, what follows the error on line"));
 }
@@ -142,6 +143,7 @@ TEST_F(Surroundings, InAFileBesideTheProgramOutweigh) {
   const CommandResult result = run({"isolint", "--verify", "hit.iso"});
   EXPECT_THAT(result.out, AllOf(HasSubstr("hits stop"), Not(HasSubstr("clamp 1")),
                                 HasSubstr("= hit.setup.json:1:15: stop is described here")));
+  EXPECT_THAT(run({"isolint", "--no-config", "--verify", "hit.iso"}).out, Not(HasSubstr("E152")));
 }
 
 TEST_F(Surroundings, ThatAreDescribedWronglyEndWithTwo) {
