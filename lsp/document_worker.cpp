@@ -13,6 +13,7 @@
 
 namespace isocnc::lsp {
 
+using namespace dialect::literals;
 using background::VerificationOrder;
 using background::VerificationResult;
 using background::VerificationSubject;
@@ -163,6 +164,10 @@ void DocumentWorker::order_verification(const VerificationOrder& order,
 
 void DocumentWorker::take_verification(const VerificationResult& result, const Client& client) {
   if (result.revision != document_.revision()) return;
+  // The error at which the run has stopped is shown itself.
+  std::erase_if(result.outcome->findings, [](const simulation::RunFinding& each) {
+    return each.finding.has(dialect::Cause("not-verified"_diag));
+  });
   document_.take_run(std::move(*result.outcome));
   report_verification(client);
 }
