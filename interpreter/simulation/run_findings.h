@@ -18,7 +18,7 @@ namespace isocnc::simulation {
 struct RunFinding {
   std::size_t line = 0;  ///< From 0.
   syntax::Finding finding;
-  std::int32_t mistake = -1;  ///< Findings with the same number have the same cause (D66); -1: alone.
+  std::int32_t mistake = -1;             ///< Findings with the same number have the same cause (D66); -1: alone.
   std::optional<std::size_t> last_line;  ///< Where it ends, if below `line`; from 0.
 
   friend bool operator==(const RunFinding&, const RunFinding&) = default;
