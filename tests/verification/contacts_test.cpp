@@ -270,7 +270,9 @@ class SampledRun {
     }
     const int steps = std::clamp(static_cast<int>(travel / 3), 1, 1000);
     for (int i = 0; i <= steps; ++i) {
-      const auto [tip, axis] = place(stretch, static_cast<double>(i) / steps);
+      const std::pair<Vec3, Vec3> at = place(stretch, static_cast<double>(i) / steps);
+      const Vec3& tip = at.first;
+      const Vec3& axis = at.second;
       const Vec3 u = axis.unitOrthogonal();
       const Vec3 v = axis.cross(u);
       const auto rim = [&](double z, double radius) {
