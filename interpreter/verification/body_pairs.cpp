@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include <fmt/format.h>
+#include "interpreter/dialect/format.h"
 
 namespace isocnc::verification {
 
@@ -17,33 +17,27 @@ namespace {
 /// part.
 constexpr double kSlack = 0.03;  // mm; above kContactDistance, so that such a motion is soon proven to be clear.
 
-struct PartName {
-  dialect::Text of_tool;
-  dialect::Text alone;
-};
-
-PartName name_of(PartKind kind) {
+/// What a part is called, with a place for the name of its tool.
+dialect::Text name_of(PartKind kind) {
   switch (kind) {
     case PartKind::Cutter:
-      return {{"the cutter of {}", "la fresa {}"}, {"the cutter", "la fresa"}};
+      return {"the cutter of {}", "la fresa {}"};
     case PartKind::Shank:
-      return {{"the shank of {}", "il gambo di {}"}, {"the shank", "il gambo"}};
+      return {"the shank of {}", "il gambo di {}"};
     case PartKind::Holder:
-      return {{"the holder of {}", "il portautensile di {}"}, {"the holder", "il portautensile"}};
+      return {"the holder of {}", "il portautensile di {}"};
     case PartKind::Nose:
     case PartKind::MachineBody:
     case PartKind::SetupBody:
       break;
   }
-  return {{"the spindle nose", "il naso del mandrino"}, {"the spindle nose", "il naso del mandrino"}};
+  return {"the spindle nose", "il naso del mandrino"};
 }
 
 GivenName part_name(PartKind kind, const std::string& tool) {
-  const PartName name = name_of(kind);
-  if (tool.empty()) return GivenName::of(name.alone);
-  const std::string english = fmt::format(fmt::runtime(name.of_tool.en), tool);
-  const std::string italian = fmt::format(fmt::runtime(name.of_tool.it), tool);
-  return GivenName::of({english, italian});
+  const dialect::Text name = name_of(kind);
+  return GivenName::of({dialect::format(name, dialect::Language::English, tool),
+                        dialect::format(name, dialect::Language::Italian, tool)});
 }
 
 GivenName body_name(const SceneBody& body) {
@@ -82,8 +76,7 @@ class PairsMaker {
 
   void add_part(PartKind kind, const std::optional<solids::RevolvedBody>& body, double offset) {
     if (!body) return;
-    const std::string& tool = kind == PartKind::Nose ? std::string() : tool_.name;
-    result_.parts.push_back({.kind = kind, .revolved = &*body, .offset = offset, .name = part_name(kind, tool)});
+    result_.parts.push_back({.kind = kind, .revolved = &*body, .offset = offset, .name = part_name(kind, tool_.name)});
   }
 
   void add_body(PartKind kind, const SceneBody& body, Link on, const Vec3& shift) {
@@ -148,9 +141,9 @@ class PairsMaker {
     const BodyRole role = obstacle.body->role;
     // Bodies of a machine pass one another closely by design.
     const bool is_of_machine = role == BodyRole::Machine && part.kind == PartKind::MachineBody;
-    const bool is_watched = role == BodyRole::Fixture || (role == BodyRole::Machine && !is_of_machine) ||
-                            (role == BodyRole::Spoilboard && !is_cutting);
-    if (is_watched && scene_.clearance > kContactDistance) {
+    pair.is_watched = role == BodyRole::Fixture || (role == BodyRole::Machine && !is_of_machine) ||
+                      (role == BodyRole::Spoilboard && !is_cutting);
+    if (pair.is_watched && scene_.clearance > kContactDistance) {
       pair.limit = scene_.clearance;
       pair.reports_near = true;
     }

@@ -45,7 +45,8 @@ struct BodyPair {
   std::size_t obstacle = 0;
   const solids::RevolvedBody* revolved = nullptr;  ///< The part's, or what counts of it; null for other bodies.
   double limit = 0;            ///< What comes nearer is looked at, mm: at least the contact distance.
-  bool reports_near = false;   ///< Whether coming nearer than `limit` without a contact is told (W154).
+  bool reports_near = false;   ///< Whether coming nearer than `limit` without a contact is reported (W154).
+  bool is_watched = false;     ///< Whether the part should keep away from the obstacle at all.
   double reach_tip = kNever;   ///< Largest distance of the part's points from the tip, mm.
   double reach_axes = kNever;  ///< ... from the rotary axes that are between both, mm.
   bool shifts = true;          ///< Whether the linear joints are between both.

@@ -8,6 +8,7 @@
 #include "interpreter/geometry/frame.h"
 #include "interpreter/solids/advance.h"
 #include "interpreter/solids/clearance.h"
+#include "interpreter/verification/body_distance.h"
 
 // The distance of a pair falls by at most what its points travel. So each pair has a limit of travel up to which it
 // needs no look: most stretches cost one comparison for all pairs.
@@ -114,25 +115,6 @@ class StretchPlaces {
   double tip_s_ = std::numeric_limits<double>::quiet_NaN();
   kinematics::Coordinates tip_ = kinematics::Coordinates::Zero();
 };
-
-/// The solid that a shape is, for a function of it.
-template <class Use>
-auto with_solid(const BodyShape& shape, Use&& use) {
-  if (const auto* const box = std::get_if<solids::Cuboid>(&shape)) return use(*box);
-  if (const auto* const cylinder = std::get_if<solids::Cylinder>(&shape)) return use(*cylinder);
-  return use(*std::get<std::shared_ptr<const solids::Mesh>>(shape));
-}
-
-Clearance distance_to(const BodyShape& shape, const solids::RevolvedBody& body, const AxisPlacement& at,
-                      double sufficient) {
-  return with_solid(shape, [&](const auto& obstacle) { return clearance(body, at, obstacle, sufficient); });
-}
-
-Clearance distance_to(const BodyShape& shape, const BodyShape& body, const Placement& at, double sufficient) {
-  return with_solid(shape, [&](const auto& obstacle) {
-    return with_solid(body, [&](const auto& moving) { return clearance(moving, at, obstacle, sufficient); });
-  });
-}
 
 double highest(const solids::Cuboid& box, const Vec3& n) { return box.highest(n); }
 double highest(const solids::Cylinder& cylinder, const Vec3& n) { return cylinder.solid().highest(n); }

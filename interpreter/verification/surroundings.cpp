@@ -1,0 +1,87 @@
+#include "interpreter/verification/surroundings.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "interpreter/motion/planner.h"
+#include "interpreter/solids/clearance.h"
+#include "interpreter/verification/body_distance.h"
+#include "interpreter/verification/encounter.h"
+
+namespace isocnc::verification {
+
+using Eigen::Isometry3d;
+using geometry::Vec3;
+
+namespace {
+
+/// The nearest part of each obstacle.
+class NeighborList {
+ public:
+  explicit NeighborList(const BodyPairs& bodies) : bodies_(bodies), nearest_(bodies.obstacles.size()) {}
+
+  void take(const BodyPair& pair, double distance, const Vec3& point) {
+    const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
+    std::optional<Neighbor>& known = nearest_[pair.obstacle];
+    if (!known) known = {.whom = obstacle.name, .role = obstacle.body->role, .described = obstacle.body->described};
+    if (pair.is_watched) known->clearance = std::min(known->clearance, distance);
+    if (!(distance < known->distance)) return;
+    known->who = bodies_.parts[pair.part].name;
+    known->distance = distance;
+    known->point = point;
+  }
+
+  std::vector<Neighbor> sorted() const {
+    std::vector<Neighbor> sorted;
+    for (const auto& each : nearest_)
+      if (each) sorted.push_back(*each);
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const Neighbor& a, const Neighbor& b) { return a.distance < b.distance; });
+    return sorted;
+  }
+
+ private:
+  const BodyPairs& bodies_;
+  std::vector<std::optional<Neighbor>> nearest_;
+};
+
+}  // namespace
+
+std::vector<Neighbor> neighbors_at(const BodyPairs& bodies, const kinematics::Kinematics& kinematics,
+                                   const kinematics::Coordinates& joints) {
+  NeighborList nearest(bodies);
+  for (const BodyPair& pair : bodies.pairs) {
+    const MovingPart& part = bodies.parts[pair.part];
+    const Obstacle& obstacle = bodies.obstacles[pair.obstacle];
+    const kinematics::Link carrier = pair.revolved ? spindle_link(kinematics) : part.on;
+    Isometry3d place = link_pose(kinematics, obstacle.on, joints).inverse() * link_pose(kinematics, carrier, joints);
+    const Vec3 origin = pair.revolved ? Vec3(0, 0, part.offset - bodies.tool_length) : part.shift;
+    place.translation() = place * origin - obstacle.shift;
+    const solids::Clearance found =
+        pair.revolved
+            ? distance_to(obstacle.shape, *pair.revolved, {place.translation(), place.linear().col(2)}, solids::kExact)
+            : distance_to(obstacle.shape, part.body->shape, place, solids::kExact);
+    nearest.take(pair, found.upper - obstacle.slack, found.on_obstacle + obstacle.shift);
+  }
+  return nearest.sorted();
+}
+
+std::vector<Neighbor> neighbors_along(const BodyPairs& bodies, const kinematics::Machine& machine,
+                                      const kinematics::Move& move, double within) {
+  motion::Planner planner(machine);
+  planner.push(move);
+  planner.rest();
+  std::vector<motion::Stretch> stretches;
+  while (const motion::Stretch* const stretch = planner.next()) stretches.push_back(*stretch);
+  BodyPairs wide = bodies;
+  for (BodyPair& pair : wide.pairs) {
+    pair.limit = std::max(pair.limit, within);
+    pair.reports_near = true;
+  }
+  NeighborList nearest(wide);
+  for (const Encounter& encounter : examine(stretches, wide, machine.kinematics).encounters)
+    nearest.take(wide.pairs[encounter.pair], encounter.distance, encounter.point);
+  return nearest.sorted();
+}
+
+}  // namespace isocnc::verification
