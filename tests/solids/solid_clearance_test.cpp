@@ -250,7 +250,9 @@ TEST(SolidClearanceProperty, DepthOfBoxesIsTheShortestTranslation) {
     ++overlapping;
     ASSERT_NEAR(found.depth(), depth, 1e-6);
   }
-  EXPECT_GT(overlapping, 500);
+  if (support::kTriesAll) {
+    EXPECT_GT(overlapping, 500);
+  }
 }
 
 /// The overlap is known to end after a translation along the plane that the scene was made with.

@@ -262,8 +262,10 @@ TEST_P(SpeedBounds, HoldForBodiesOnEveryLink) {
       }
     }
   }
-  EXPECT_GT(compared, 1000u);
-  EXPECT_GT(fullest, 0.9);
+  if (support::kTriesAll) {
+    EXPECT_GT(compared, 1000u);
+    EXPECT_GT(fullest, 0.9);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(AllKinds, SpeedBounds,
