@@ -9,8 +9,8 @@
 namespace isocnc::breakpoints {
 
 /// A reason to stop that is no breakpoint, which the client can turn on and off.
-enum class ExceptionFilter : std::uint8_t { Errors, Warnings, Limits, Run, ToolChange, FirstCut };
-inline constexpr std::size_t kExceptionFilterCount = 6;
+enum class ExceptionFilter : std::uint8_t { Errors, Warnings, Limits, Contacts, Run, ToolChange, FirstCut };
+inline constexpr std::size_t kExceptionFilterCount = 7;
 
 /// What the client learns about an exception filter.
 struct ExceptionFilterDef {
@@ -18,7 +18,7 @@ struct ExceptionFilterDef {
   dialect::Text label;
   dialect::Text description;
   bool is_default = false;
-  bool takes_condition = false;  ///< Whether it may have a condition, judged before the block.
+  bool takes_condition = false;  ///< Whether it may have a condition, judged where the run would stop.
 };
 
 const ExceptionFilterDef& definition(ExceptionFilter filter);

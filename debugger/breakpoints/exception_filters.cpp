@@ -8,6 +8,7 @@
 #include "debugger/expressions/expression.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/kinematics/travel.h"
+#include "interpreter/verification/verification_report.h"
 
 namespace isocnc::breakpoints {
 
@@ -71,6 +72,15 @@ static std::optional<Exception> find_finding(ExceptionFilter filter, const std::
 static bool is_first_cut(const running::Block& block, const debuggee::BlockEffect& effect) {
   return block.is_tool_unused && std::any_of(effect.moves.begin(), effect.moves.end(),
                                              [](const auto& move) { return move.kind != execution::MoveKind::Rapid; });
+}
+
+std::optional<Exception> ExceptionFilters::find_contact(const verification::Contact& contact,
+                                                        const expressions::Moment& at, Language language) const {
+  if (!counts(ExceptionFilter::Contacts, at)) return std::nullopt;
+  return Exception{.filter = ExceptionFilter::Contacts,
+                   .code = std::string(dialect::definition(contact.id).code),
+                   .message = verification::in_words(contact, language),
+                   .explanation = analyzer::explain(contact.id, language)};
 }
 
 std::optional<Exception> ExceptionFilters::find_exception(const running::Block& block,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/timing.h"
+#include "interpreter/verification/contact.h"
 
 namespace isocnc::breakpoints {
 
@@ -29,7 +31,7 @@ struct Warning {
   std::string message;
 };
 
-/// The exception filters that are on. They judge each block before it is executed.
+/// The exception filters that are on. They judge each block before it is executed, and contacts where they begin.
 class ExceptionFilters {
  public:
   /// Warnings by line, from 0; empty until the checker has read the program.
@@ -43,14 +45,25 @@ class ExceptionFilters {
   void turn_on(ExceptionFilter filter, std::optional<expressions::Expression> condition = {}) {
     on_[static_cast<std::size_t>(filter)] = true;
     conditions_[static_cast<std::size_t>(filter)] = std::move(condition);
+    ++revision_;
   }
-  void turn_all_off() { on_ = {}; }
+  void turn_all_off() {
+    on_ = {};
+    ++revision_;
+  }
+  /// Another number after each change.
+  std::uint64_t revision() const { return revision_; }
 
   /// Whether find_exception() can find anything. It need not be called otherwise.
   bool judge_blocks() const;
   /// A reason to stop before a block, other than where the machine goes in it. `before` is the moment before the block.
   std::optional<Exception> find_exception(const running::Block& block, const expressions::Moment& before,
                                           const execution::Setup& setup, dialect::Language language) const;
+
+  /// A contact as a reason to stop, if the filter is on; `at` is the moment of the first touch. In its condition, DEPTH
+  /// is how deep the contact gets in the block.
+  std::optional<Exception> find_contact(const verification::Contact& contact, const expressions::Moment& at,
+                                        dialect::Language language) const;
 
   /// Whether find_overtravel() can find anything. It need not be called otherwise.
   bool judge_motions(const simulation::TimedMachine& machine) const;
@@ -59,6 +72,7 @@ class ExceptionFilters {
   /// Whether the filter is on, and its condition holds.
   bool counts(ExceptionFilter filter, const expressions::Moment& before) const;
 
+  std::uint64_t revision_ = 0;
   std::array<bool, kExceptionFilterCount> on_{};
   std::array<std::optional<expressions::Expression>, kExceptionFilterCount> conditions_;
 };

@@ -40,6 +40,17 @@ static void step_instruction_of(Run& run, const Simulation& present) {
   }
 }
 
+void Debuggee::advance_to_moment(double seconds) {
+  if (!present().is_in_block() && !(seconds > present().time())) return history().step_instruction();
+  history().advance_in_block(seconds);
+}
+
+double Debuggee::end_of_instruction() const {
+  Simulation ahead = present();
+  step_instruction_of(ahead, present());
+  return ahead.time();
+}
+
 void Debuggee::step_instruction() { step_instruction_of(history(), present()); }
 
 void Debuggee::step_back() {
@@ -97,16 +108,11 @@ std::optional<std::uint64_t> Debuggee::find_back(std::uint64_t from, std::uint64
   });
 }
 
-std::optional<std::uint64_t> Debuggee::find_motion_back(
-    std::uint64_t from, std::uint64_t blocks, const std::function<bool(const kinematics::Move&)>& is_it) const {
+std::optional<std::uint64_t> Debuggee::find_simulated_back(std::uint64_t from, std::uint64_t blocks,
+                                                           const std::function<bool(Simulation&)>& pass_block) const {
   return find_in_parts(from, blocks, [&](const History& history, std::uint64_t begin, std::uint64_t end) {
-    return history.find_motion_before(end, is_it, begin);
+    return history.find_simulated_before(end, pass_block, begin);
   });
-}
-
-void Debuggee::look_ahead(const std::function<void(const kinematics::Move&)>& on_move) const {
-  Simulation ahead = present();
-  ahead.trace_block(on_move);
 }
 
 std::optional<Hindrance> Debuggee::hindrance() const {

@@ -48,6 +48,10 @@ class Debuggee {
   std::optional<running::Block> next() { return history().next(); }
   void step_block() { history().step_block(); }
   void advance_in_block(double seconds) { history().advance_in_block(seconds); }
+  /// To a moment in the block in progress or, between two blocks, in the next one, which may be its start.
+  void advance_to_moment(double seconds);
+  /// When a step in from here ends: seconds since the start.
+  double end_of_instruction() const;
   /// To the end of the instruction, or of the segment of an arc in G49, that the machine is at; between two blocks to
   /// the start of the next one.
   void step_instruction();
@@ -63,11 +67,9 @@ class Debuggee {
   std::optional<std::uint64_t> find_back(std::uint64_t from, std::uint64_t blocks,
                                          const std::function<bool(const running::Block&)>& is_it) const;
 
-  /// The last of the blocks [from, blocks) with a motion of the machine for which `is_it` holds.
-  std::optional<std::uint64_t> find_motion_back(std::uint64_t from, std::uint64_t blocks,
-                                                const std::function<bool(const kinematics::Move&)>& is_it) const;
-  /// Calls `on_move` with each motion that the machine will make in the block that comes next.
-  void look_ahead(const std::function<void(const kinematics::Move&)>& on_move) const;
+  /// As History::find_simulated_before.
+  std::optional<std::uint64_t> find_simulated_back(
+      std::uint64_t from, std::uint64_t blocks, const std::function<bool(simulation::Simulation&)>& pass_block) const;
 
   void set_register(int number, double value) { history().set_register(number, value); }
   void set_vgpl(double value) { history().set_vgpl(value); }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "debugger/debuggee/debuggee.h"
+#include "debugger/debuggee/surroundings.h"
 #include "interpreter/simulation/simulation.h"
 
 namespace isocnc::expressions {
@@ -23,6 +24,10 @@ struct Moment {
   /// The machine at this moment. Without it, as in a search backward, the machine counts as standing where the program
   /// has led it, and the time is not known.
   const simulation::Simulation* machine = nullptr;
+  /// What surrounds the machine; null where it does not matter.
+  const debuggee::Surroundings* surroundings = nullptr;
+  /// How deep the contact that is judged gets, mm; none where none is.
+  std::optional<double> contact_depth = {};
 };
 
 /// The present of a simulation.

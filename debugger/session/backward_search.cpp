@@ -17,11 +17,15 @@ static std::uint64_t end_of_past(const simulation::Simulation& present) {
 }
 
 BackwardSearch::BackwardSearch(SessionState& state)
-    : state_(state), start_(end_of_past(state.debuggee->present())), searched_from_(start_) {}
+    : state_(state),
+      start_(end_of_past(state.debuggee->present())),
+      start_time_(state.debuggee->present().time()),
+      searched_from_(start_) {}
 
 std::optional<BackwardSearch::Hit> BackwardSearch::search_window() {
   const bool plans_motions = state_.exception_filters.judge_motions(state_.debuggee->machine());
-  const std::uint64_t window = plans_motions ? kMotionWindow : kWindow;
+  const bool looks_into_blocks = watches_blocks(state_);
+  const std::uint64_t window = plans_motions || looks_into_blocks ? kMotionWindow : kWindow;
   const std::uint64_t from = searched_from_ > window ? searched_from_ - window : 0;
   std::optional<Hit> last;
   state_.debuggee->find_back(from, searched_from_, [&](const running::Block& block) {
@@ -32,15 +36,42 @@ std::optional<BackwardSearch::Hit> BackwardSearch::search_window() {
   if (plans_motions)
     if (const auto block = find_overtravel_from(from); block && (!last || *block >= last->block))
       last = Hit{.block = *block};
+  if (looks_into_blocks)
+    if (auto hit = find_moment_from(from); hit && (!last || hit->block >= last->block)) last = std::move(hit);
   searched_from_ = from;
   return last;
 }
 
 std::optional<std::uint64_t> BackwardSearch::find_overtravel_from(std::uint64_t block) const {
   const debuggee::Debuggee& debuggee = *state_.debuggee;
-  return debuggee.find_motion_back(block, searched_from_, [&](const kinematics::Move& move) {
-    return breakpoints::find_overtravel(move, debuggee.machine(), state_.language()).has_value();
+  return debuggee.find_simulated_back(block, searched_from_, [&](simulation::Simulation& simulation) {
+    bool is_beyond = false;
+    simulation.trace_block([&](const kinematics::Move& move) {
+      is_beyond = is_beyond || breakpoints::find_overtravel(move, debuggee.machine(), state_.language()).has_value();
+    });
+    return is_beyond;
   });
+}
+
+/// The last moment within one of the blocks at which a run stops. In the block where the search began, it is before
+/// that.
+std::optional<BackwardSearch::Hit> BackwardSearch::find_moment_from(std::uint64_t block) const {
+  std::optional<Hit> last;
+  state_.debuggee->find_simulated_back(block, searched_from_, [&](simulation::Simulation& simulation) {
+    const simulation::Simulation before = simulation;
+    std::vector<InnerMoment> moments = pass_block(state_, simulation);
+    for (; !moments.empty(); moments.pop_back()) {
+      InnerMoment& moment = moments.back();
+      if (before.blocks() + 1 >= start_ && !(moment.time < start_time_)) continue;
+      simulation::Simulation there = before;
+      moment.time > there.time() ? there.advance_in_block(moment.time) : there.step_instruction();
+      if (!judge_moment(moment, state_, there)) continue;
+      last = Hit{.block = before.blocks(), .moment = std::move(moment)};
+      return true;
+    }
+    return false;
+  });
+  return last;
 }
 
 double BackwardSearch::part_searched() const {

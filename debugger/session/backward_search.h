@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "debugger/session/inner_moments.h"
 #include "debugger/session/session_state.h"
 
 namespace isocnc::session {
@@ -12,8 +13,9 @@ namespace isocnc::session {
 class BackwardSearch {
  public:
   struct Hit {
-    std::uint64_t block = 0;  ///< Blocks executed before the place.
-    bool is_change = false;   ///< A watched value has changed in the block before.
+    std::uint64_t block = 0;                 ///< Blocks executed before the place.
+    bool is_change = false;                  ///< A watched value has changed in the block before.
+    std::optional<InnerMoment> moment = {};  ///< The place within the block that comes next; none for its start.
   };
 
   /// From the present of the debuggee. Keeps a reference to the state.
@@ -28,11 +30,13 @@ class BackwardSearch {
  private:
   std::optional<Hit> judge(const running::Block& block);
   std::optional<std::uint64_t> find_overtravel_from(std::uint64_t block) const;
+  std::optional<Hit> find_moment_from(std::uint64_t block) const;
   bool stops_before(const running::Block& block);
   bool changes_data(const running::Block& block);
 
   SessionState& state_;
   std::uint64_t start_ = 0;          ///< Blocks that had begun when the search did.
+  double start_time_ = 0;            ///< When the search began; seconds of the run.
   std::uint64_t searched_from_ = 0;  ///< The blocks from this one on have been searched.
   expressions::ValueTrail trail_;
 };

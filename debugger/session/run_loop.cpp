@@ -141,7 +141,13 @@ void RunLoop::run_forward(Clock::time_point deadline) {
 /// too.
 std::optional<Stop> RunLoop::run_block(double until) {
   if (auto due = stop_check_.before_block()) return due;
-  const std::uint64_t block = advance([until](debuggee::Debuggee& debuggee) { debuggee.advance_in_block(until); });
+  const auto moment = stop_check_.next_moment();
+  const bool is_due = moment && *moment <= until;
+  const std::uint64_t block = advance([&](debuggee::Debuggee& debuggee) {
+    is_due ? debuggee.advance_to_moment(*moment) : debuggee.advance_in_block(until);
+  });
+  if (is_due)
+    if (auto due = stop_check_.at_moment()) return due;
   if (state_.debuggee->present().is_in_block()) return std::nullopt;
   return end_block(block);
 }
@@ -195,9 +201,17 @@ void RunLoop::step(dap::Step step) {
 }
 
 void RunLoop::step_now(dap::Step step) {
-  const std::uint64_t block = advance([step](debuggee::Debuggee& debuggee) {
-    step == dap::Step::Block ? debuggee.step_block() : debuggee.step_instruction();
+  const bool is_block = step == dap::Step::Block;
+  const auto moment = stop_check_.next_moment();
+  const bool is_due = moment && (is_block || *moment <= state_.debuggee->end_of_instruction());
+  const std::uint64_t block = advance([&](debuggee::Debuggee& debuggee) {
+    if (is_due) return debuggee.advance_to_moment(*moment);
+    is_block ? debuggee.step_block() : debuggee.step_instruction();
   });
+  if (is_due) {
+    if (const auto due = stop_check_.at_moment()) return stop(*due);
+    if (state_.debuggee->present().is_in_block()) return step_now(step);
+  }
   stop_check_.expect_judgement();
   if (state_.debuggee->present().is_in_block()) return stop({.reason = "step"});
   if (const auto due = end_block(block)) return stop(*due);
@@ -300,9 +314,13 @@ void RunLoop::run_backward(Clock::time_point deadline) {
 }
 
 void RunLoop::go_back_to(const BackwardSearch::Hit& hit) {
-  move_back([&](debuggee::Debuggee& debuggee) { debuggee.go_to_block(hit.block); });
+  move_back([&](debuggee::Debuggee& debuggee) {
+    debuggee.go_to_block(hit.block);
+    if (hit.moment) debuggee.advance_to_moment(hit.moment->time);
+  });
   stop_check_.expect_judgement();
   state_.exception.reset();
+  if (hit.moment) return stop(stop_check_.at_moment(*hit.moment));
   const auto due = stop_check_.on_arrival();
   if (hit.is_change) return stop({.reason = "data breakpoint"});
   stop(due ? *due : Stop{.reason = "breakpoint"});

@@ -7,8 +7,10 @@
 
 #include "debugger/session/event_text.h"
 #include "debugger/session/launch.h"
+#include "interpreter/configuration/scenes.h"
 #include "interpreter/running/error_message.h"
 #include "interpreter/system/user_language.h"
+#include "interpreter/verification/verifier.h"
 
 namespace isocnc::session {
 
@@ -49,6 +51,7 @@ void Session::begin(LaunchOptions options) {
   state_.launch_options = std::move(options);
   state_.configuration = std::move(launched.configuration);
   state_.debuggee = std::make_shared<debuggee::Debuggee>(std::move(launched.debuggee));
+  state_.surroundings = std::make_shared<const debuggee::Surroundings>([this] { return load_surroundings(); });
   state_.journal = {};
   state_.exception.reset();
   state_.exception_filters.warnings.clear();
@@ -56,6 +59,17 @@ void Session::begin(LaunchOptions options) {
   state_.breakpoints.forget_hits_from(0);
   run_loop_.reset(file_watch);
   report_moved_breakpoints();
+}
+
+/// As they were launched. What is wrong with their description is reported: then there are none.
+debuggee::PlacedScene Session::load_surroundings() {
+  configuration::Scenes scenes(language());
+  debuggee::PlacedScene placed{.scene = scenes.of(state_.configuration, launch_options().program)};
+  for (const std::string& mistake : scenes.mistakes(language())) notifier_.report_output("important", mistake);
+  if (placed.scene)
+    placed.origin = verification::first_workpiece_origin(debuggee().text().text(),
+                                                         run_options(launch_options(), state_.configuration));
+  return placed;
 }
 
 void Session::configuration_done() {

@@ -96,6 +96,7 @@ class Session : public expressions::Controls {
 
  private:
   void begin(LaunchOptions options);
+  debuggee::PlacedScene load_surroundings();
   void place_source_breakpoints();
   void report_moved_breakpoints();
   void require_launch() const;

@@ -5,8 +5,11 @@
 
 namespace isocnc::session {
 
-expressions::Moment SessionState::moment() const {
-  expressions::Moment moment = expressions::moment_of(debuggee->present());
+expressions::Moment SessionState::moment() const { return moment_of(debuggee->present()); }
+
+expressions::Moment SessionState::moment_of(const simulation::Simulation& simulation) const {
+  expressions::Moment moment = expressions::moment_of(simulation);
+  moment.surroundings = surroundings.get();
   moment.override_percent = 100 * debuggee->feed_override();
   moment.playback = launch_options.speed;
   return moment;

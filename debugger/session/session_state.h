@@ -11,6 +11,7 @@
 #include "debugger/dap/client.h"
 #include "debugger/debuggee/debuggee.h"
 #include "debugger/debuggee/journal.h"
+#include "debugger/debuggee/surroundings.h"
 #include "debugger/session/launch_options.h"
 #include "interpreter/configuration/configuration.h"
 #include "interpreter/dialect/format.h"
@@ -25,7 +26,8 @@ struct SessionState {
   std::optional<dialect::Language> commanded_language;  ///< Of the command line; overrules all others.
   LaunchOptions launch_options;
   configuration::Configuration configuration;
-  std::shared_ptr<debuggee::Debuggee> debuggee;  ///< Null before a launch and after the end.
+  std::shared_ptr<debuggee::Debuggee> debuggee;                ///< Null before a launch and after the end.
+  std::shared_ptr<const debuggee::Surroundings> surroundings;  ///< Of the debuggee.
   debuggee::Journal journal;
   breakpoints::Breakpoints breakpoints;
   breakpoints::ExceptionFilters exception_filters;
@@ -34,6 +36,8 @@ struct SessionState {
   bool is_launched() const { return debuggee != nullptr; }
   /// The present of the debuggee, which is launched.
   expressions::Moment moment() const;
+  /// A moment of the debuggee's run, which a simulation has reached.
+  expressions::Moment moment_of(const simulation::Simulation& simulation) const;
   /// Whether the file is that of the program, even if it has been removed since.
   bool is_program(const std::filesystem::path& file) const;
   /// The program, as a `Source` of the protocol.

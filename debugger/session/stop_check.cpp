@@ -1,6 +1,8 @@
 #include "debugger/session/stop_check.h"
 
+#include <iterator>
 #include <utility>
+#include <vector>
 
 #include "analyzer/explain.h"
 #include "debugger/debuggee/block_effect.h"
@@ -16,6 +18,7 @@ std::optional<Stop> StopCheck::before_block() {
 }
 
 std::optional<Stop> StopCheck::on_arrival() {
+  coming_.reset();
   if (state_.debuggee->present().is_in_block() || std::exchange(is_judged_, true)) return std::nullopt;
   return judge_block();
 }
@@ -25,6 +28,40 @@ std::optional<Stop> StopCheck::judge_block() {
   if (ends_step_out()) return Stop{.reason = "step"};
   if (auto stop = judge_breakpoints()) return stop;
   return judge_exceptions();
+}
+
+std::optional<double> StopCheck::next_moment() {
+  if (state_.launch_options.no_debug || !watches_blocks(state_)) return std::nullopt;
+  const simulation::Simulation& present = state_.debuggee->present();
+  const std::uint64_t block = present.blocks() - (present.is_in_block() ? 1 : 0);
+  const std::uint64_t revision = state_.exception_filters.revision();
+  if (!coming_ || coming_->block != block || coming_->revision != revision) {
+    simulation::Simulation ahead = present;
+    std::vector<InnerMoment> moments = pass_block(state_, ahead);
+    coming_ = {.block = block,
+               .revision = revision,
+               .moments = {std::make_move_iterator(moments.begin()), std::make_move_iterator(moments.end())}};
+  }
+  return coming_->moments.empty() ? std::nullopt : std::optional(coming_->moments.front().time);
+}
+
+/// Several may be one moment.
+std::optional<Stop> StopCheck::at_moment() {
+  const simulation::Simulation& present = state_.debuggee->present();
+  std::optional<breakpoints::Exception> found;
+  std::deque<InnerMoment>& moments = coming_->moments;
+  for (; !moments.empty() && moments.front().time <= present.time(); moments.pop_front()) {
+    auto another = judge_moment(moments.front(), state_, present);
+    if (found && another) found->message += "; " + another->message;
+    if (!found) found = std::move(another);
+  }
+  if (!found) return std::nullopt;
+  return stop_at(std::move(*found));
+}
+
+Stop StopCheck::at_moment(const InnerMoment& moment) {
+  auto found = judge_moment(moment, state_, state_.debuggee->present());
+  return found ? stop_at(std::move(*found)) : Stop{.reason = "exception"};
 }
 
 static bool has_same_frame(const execution::State& a, const execution::State& b) {
@@ -84,7 +121,8 @@ std::optional<breakpoints::Exception> StopCheck::find_coming_overtravel() const 
   const debuggee::Debuggee& debuggee = *state_.debuggee;
   std::optional<breakpoints::Exception> found;
   if (!state_.exception_filters.judge_motions(debuggee.machine())) return found;
-  debuggee.look_ahead([&](const kinematics::Move& move) {
+  simulation::Simulation ahead = debuggee.present();
+  ahead.trace_block([&](const kinematics::Move& move) {
     if (!found) found = breakpoints::find_overtravel(move, debuggee.machine(), state_.language());
   });
   return found;

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string_view>
 
+#include "debugger/session/inner_moments.h"
 #include "debugger/session/notifier.h"
 #include "debugger/session/session_state.h"
 
@@ -29,8 +31,16 @@ class StopCheck {
   /// The run has come to stand before a block, or within one.
   std::optional<Stop> on_arrival();
   /// The next block counts as not judged, or as judged already.
-  void expect_judgement() { is_judged_ = false; }
-  void skip_judgement() { is_judged_ = true; }
+  void expect_judgement() { set_judged(false); }
+  void skip_judgement() { set_judged(true); }
+
+  /// The next moment within the block in progress or, between two blocks, within the next one at which the run may
+  /// stop; seconds since the start.
+  std::optional<double> next_moment();
+  /// The run has come to that moment.
+  std::optional<Stop> at_moment();
+  /// The run has come to this moment, going back.
+  Stop at_moment(const InnerMoment& moment);
 
   /// A block begins: takes the values that data breakpoints watch.
   void start_block();
@@ -48,6 +58,18 @@ class StopCheck {
   void reset_message_count() { message_count_ = 0; }
 
  private:
+  /// Moments that are still to come in a block.
+  struct ComingMoments {
+    std::uint64_t block = 0;
+    std::uint64_t revision = 0;  ///< Of what stops the run.
+    std::deque<InnerMoment> moments;
+  };
+
+  /// The machine may have been moved, or changed.
+  void set_judged(bool is_judged) {
+    is_judged_ = is_judged;
+    coming_.reset();
+  }
   std::optional<Stop> judge_block();
   bool ends_step_out() const;
   std::optional<Stop> judge_breakpoints();
@@ -59,7 +81,8 @@ class StopCheck {
 
   SessionState& state_;
   Notifier& notifier_;
-  bool is_judged_ = false;                         ///< The block that comes next.
+  bool is_judged_ = false;  ///< The block that comes next.
+  std::optional<ComingMoments> coming_;
   std::optional<execution::State> step_out_from_;  ///< State in which the step out began.
   expressions::ValueTrail trail_;                  ///< Values of the block in progress.
   std::size_t message_count_ = 0;

@@ -106,9 +106,9 @@ std::optional<std::uint64_t> History::find_before(std::uint64_t blocks,
   return found;
 }
 
-std::optional<std::uint64_t> History::find_motion_before(std::uint64_t blocks,
-                                                         const std::function<bool(const kinematics::Move&)>& is_it,
-                                                         std::uint64_t from) const {
+std::optional<std::uint64_t> History::find_simulated_before(std::uint64_t blocks,
+                                                            const std::function<bool(Simulation&)>& pass_block,
+                                                            std::uint64_t from) const {
   const auto after = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
                                           [&](const Checkpoint& each) { return each.simulation->blocks() <= from; });
   Simulation simulation = *std::prev(after)->simulation;
@@ -117,9 +117,10 @@ std::optional<std::uint64_t> History::find_motion_before(std::uint64_t blocks,
   while (!simulation.has_ended() && simulation.blocks() < blocks) {
     const std::uint64_t block = simulation.blocks();
     apply_settings(simulation, block);
-    simulation.trace_block([&](const kinematics::Move& move) {
-      if (block >= from && is_it(move)) found = block;
-    });
+    if (block < from)
+      simulation.step_block();
+    else if (pass_block(simulation))
+      found = block;
   }
   return found;
 }

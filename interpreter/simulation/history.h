@@ -59,12 +59,12 @@ class History {
                                            const std::function<bool(const running::Block&)>& is_it,
                                            std::uint64_t from = 0) const;
 
-  /// Finds the last of the blocks [from, blocks) with a motion for which `is_it` holds, as the machine makes it
-  /// (Simulation::motion()). Returns the number of blocks executed before it. Plans all motions from the checkpoint on,
-  /// so a search should cover few blocks at once.
-  std::optional<std::uint64_t> find_motion_before(std::uint64_t blocks,
-                                                  const std::function<bool(const kinematics::Move&)>& is_it,
-                                                  std::uint64_t from = 0) const;
+  /// Finds the last of the blocks [from, blocks) for which `pass_block` returns true. It gets the simulation before
+  /// each of them and takes it to the end of the block, as Simulation::step_block() does. Returns the number of blocks
+  /// executed before it. Plans all motions from the checkpoint on, so a search should cover few blocks at once.
+  std::optional<std::uint64_t> find_simulated_before(std::uint64_t blocks,
+                                                     const std::function<bool(Simulation&)>& pass_block,
+                                                     std::uint64_t from = 0) const;
 
   /// Like Simulation::set_register() and set_vgpl(), from the present on. Discards later checkpoints. After a step back
   /// the value applies from the start of the block in progress or the end of the one before.

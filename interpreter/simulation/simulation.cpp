@@ -65,6 +65,9 @@ Simulation::Simulation(const Simulation& before, const running::Runner& run, con
       ahead_(present_),
       compensation_(machine, run.result().state.tool, beside),
       timing_(machine, standing(before, run, machine, beside)),
+      earlier_stretch_(before.last_stretch_ ? std::make_shared<const motion::Stretch>(*before.last_stretch_)
+                                            : before.earlier_stretch_),
+      has_moved_tool_(before.has_moved_tool_),
       last_motion_(before.last_motion_),
       begin_(timing_.tip()),
       start_tool_length_(before.tool_length_),
@@ -116,6 +119,19 @@ void Simulation::trace_block(const std::function<void(const kinematics::Move&)>&
     if (const kinematics::Move* const move = motion()) on_move(*move);
 }
 
+void Simulation::trace_stretches(
+    const std::function<void(const running::Event& event, const motion::Stretch* stretch)>& on_piece) {
+  if (has_ended()) return;
+  if (!in_block_) start_block();
+  while (in_block_ && read_ahead({}) && is_of_block(piece())) {
+    const TimelinePiece& next = *piece();
+    on_piece(next.cause->event, next.stretch ? &*next.stretch : nullptr);
+    time_ = std::max(time_, next.end);
+    pass_piece();
+  }
+  continue_block(kForever, {});
+}
+
 /// Starts the next block and applies its effects that take no time. The control has read it already, unless the machine
 /// had to arrive there first.
 void Simulation::start_block() {
@@ -156,14 +172,17 @@ void Simulation::continue_block(double seconds, const BeforeReading& before_read
 
 void Simulation::pass_piece() {
   const running::Event& event = pieces_[passed_].cause->event;
-  if (const auto* const change = std::get_if<running::ToolEvent>(&event.what))
+  if (const auto* const change = std::get_if<running::ToolEvent>(&event.what)) {
     tool_length_ = machine_->tool_length(change->tool);
+    has_moved_tool_ = false;
+  }
   if (const auto& stretch = pieces_[passed_].stretch) {
     if (!last_stretch_ || last_stretch_->tag != stretch->tag) travelled_ = 0;
     // After the last stretch of a move, the traveled length is not needed any more.
     if (!stretch->ends_move)
       travelled_ += stretch->parameter_at(stretch->start + stretch->duration) - stretch->parameter_at(stretch->start);
     last_stretch_ = stretch;
+    has_moved_tool_ = true;
     last_motion_ = pieces_[passed_].cause;
   }
   ++passed_;
@@ -250,6 +269,11 @@ const kinematics::Move* Simulation::motion() const {
 const motion::Stretch* Simulation::stretch() const {
   const bool moves = piece() != nullptr && piece()->stretch.has_value() && piece()->start <= time_;
   return moves ? &*piece()->stretch : nullptr;
+}
+
+const motion::Stretch* Simulation::stretch_before() const {
+  if (!has_moved_tool_) return nullptr;
+  return last_stretch_ ? &*last_stretch_ : earlier_stretch_.get();
 }
 
 motion::Sample Simulation::sample() const {

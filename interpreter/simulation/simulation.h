@@ -65,6 +65,11 @@ class Simulation {
   /// Like step_block(), to be called between two blocks. Calls `on_move` with each motion of the block before the
   /// machine makes it.
   void trace_block(const std::function<void(const kinematics::Move&)>& on_move);
+  /// Ends the block in progress or, between two blocks, the next one, like step_block(). Calls `on_piece` with each
+  /// stretch of motion that the machine has not completed yet, and with null for each event that takes time without one
+  /// and for each tool change.
+  void trace_stretches(
+      const std::function<void(const running::Event& event, const motion::Stretch* stretch)>& on_piece);
 
   /// The block that comes next, before it is executed; none where the program ends.
   std::optional<running::Block> next() { return present_.next(); }
@@ -89,6 +94,9 @@ class Simulation {
   /// non-const call.
   const kinematics::Move* motion() const;
   motion::Sample sample() const;
+  /// The last stretch that has been completed with the mounted tool; null if it has not been moved yet.
+  const motion::Stretch* stretch_before() const;
+  const TimedMachine& machine() const { return *machine_; }
   double tool_length() const { return tool_length_; }  ///< Length of the mounted tool, mm.
   /// The spindle after the block in progress. An S counts only after the next M03 or M04.
   const Timing::SpindleMotion& spindle() const { return spindle_; }
@@ -141,6 +149,9 @@ class Simulation {
   std::vector<TimelinePiece> pieces_;  ///< Pieces with known times.
   std::size_t passed_ = 0;             ///< Number of pieces that the machine has completed.
   std::optional<motion::Stretch> last_stretch_;
+  /// Of the run from before the constructor; or null.
+  std::shared_ptr<const motion::Stretch> earlier_stretch_;
+  bool has_moved_tool_ = false;  ///< Whether a stretch has been completed since the last tool change.
   /// Last motion with a completed stretch, possibly from before the constructor; or null.
   std::shared_ptr<const TimedEvent> last_motion_;
   geometry::Pose begin_;  ///< Tip at the start, with a tool of start_tool_length_.

@@ -41,14 +41,18 @@ void Verifier::take(const simulation::TimedEvent& event) {
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what)) mount(tool->tool, event.event.line);
 }
 
+MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool) {
+  const auto known = scene.tools.find(tool);
+  return {.bodies = known == scene.tools.end() ? nullptr : &known->second,
+          .name = running::tool_name(tool),
+          .length = machine.tool_length(tool)};
+}
+
 void Verifier::mount(const execution::ToolCode& tool, std::size_t line) {
   examine_waiting();
   log_.close_all();
   tool_ = tool;
-  const auto known = scene_.tools.find(tool);
-  const MountedTool mounted{.bodies = known == scene_.tools.end() ? nullptr : &known->second,
-                            .name = running::tool_name(tool),
-                            .length = machine_.tool_length(tool)};
+  const MountedTool mounted = mounted_tool(scene_, machine_, tool);
   bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted, origin_);
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;

@@ -59,6 +59,9 @@ class Verifier {
   Certificate certificate_;
 };
 
+/// A tool that a machine mounts, with its bodies in a scene. The result refers to the scene.
+MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool);
+
 /// The origin of the first workpiece frame that a run sets (G92); machine frame, mm. 0 if it sets none.
 geometry::Vec3 first_workpiece_origin(std::string_view text, const running::RunOptions& options);
 

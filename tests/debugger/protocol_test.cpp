@@ -34,7 +34,7 @@ TEST(Protocol, SaysWhatItCan) {
                                  "supportsCancelRequest",
                                  "supportsExceptionFilterOptions"})
     EXPECT_EQ(capabilities.value(name, false), true) << name;
-  EXPECT_EQ(capabilities.at("exceptionBreakpointFilters").size(), 6u);
+  EXPECT_EQ(capabilities.at("exceptionBreakpointFilters").size(), 7u);
 }
 
 /// Whatever comes, an answer or a word to the user comes back, and the adapter goes on.

@@ -121,7 +121,12 @@ TEST_F(HistoryTest, FindsTheLastMotionBefore) {
     std::optional<std::uint64_t> last;
     for (std::uint64_t block = from; block < end; ++block)
       if (does_block[block]) last = block;
-    EXPECT_EQ(history.find_motion_before(end, leads_right, from), last) << seed;
+    const auto pass_block = [&](Simulation& simulation) {
+      bool has_found = false;
+      simulation.trace_block([&](const kinematics::Move& move) { has_found = has_found || leads_right(move); });
+      return has_found;
+    };
+    EXPECT_EQ(history.find_simulated_before(end, pass_block, from), last) << seed;
   }
 }
 
