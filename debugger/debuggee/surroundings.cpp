@@ -17,18 +17,24 @@ using verification::Contact;
 using verification::Encounter;
 using verification::Neighbor;
 
+geometry::Frame frame_in_force(const execution::State& state) {
+  const geometry::Frame face = state.face_mounted ? state.face : geometry::Frame();
+  return {.origin = state.workpiece_origin + face.origin, .axes = face.axes};
+}
+
 const verification::Scene* Surroundings::scene() const {
-  if (!placed_) placed_ = load_();
-  return placed_->scene.get();
+  if (!scene_) scene_ = load_();
+  return scene_->get();
 }
 
 const BodyPairs& Surroundings::bodies_with(const execution::ToolCode& tool,
                                            const simulation::TimedMachine& machine) const {
   const auto known = bodies_.find(tool);
   if (known != bodies_.end()) return known->second;
+  if (!origin_) origin_ = find_origin_();
   return bodies_
       .emplace(tool, verification::pairs_of(*scene(), machine.motion.kinematics,
-                                            verification::mounted_tool(*scene(), machine, tool), placed_->origin))
+                                            verification::mounted_tool(*scene(), machine, tool), *origin_))
       .first->second;
 }
 
@@ -43,6 +49,21 @@ const std::vector<Neighbor>& Surroundings::neighbors_of(const Simulation& simula
              .neighbors = verification::neighbors_at(bodies_with(tool, simulation.machine()),
                                                      simulation.machine().motion.kinematics, joints)};
   return last_->neighbors;
+}
+
+static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+double Surroundings::clearance_of(const Simulation& simulation) const {
+  if (!are_known()) return kUnknown;
+  double clearance = std::numeric_limits<double>::infinity();
+  for (const Neighbor& each : neighbors_of(simulation)) clearance = std::min(clearance, each.clearance);
+  return clearance;
+}
+
+double Surroundings::depth_of(const Simulation& simulation) const {
+  if (!are_known()) return kUnknown;
+  const std::vector<Neighbor>& neighbors = neighbors_of(simulation);
+  return neighbors.empty() ? 0 : std::max(0.0, -neighbors.front().distance);
 }
 
 /// Gathers the stretches of a block, and finds the contacts that begin on them.
@@ -65,8 +86,7 @@ class BlockContacts {
   }
 
   std::vector<Contact> contacts(const execution::State& state) {
-    const geometry::Frame face = state.face_mounted ? state.face : geometry::Frame();
-    frame_ = {.origin = state.workpiece_origin + face.origin, .axes = face.axes};
+    frame_ = frame_in_force(state);
     examine();
     return std::move(contacts_);
   }

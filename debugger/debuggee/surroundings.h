@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "interpreter/simulation/simulation.h"
@@ -12,20 +13,21 @@
 
 namespace isocnc::debuggee {
 
-/// A scene, and where its setup stands.
-struct PlacedScene {
-  std::shared_ptr<const verification::Scene> scene;  ///< Null if nothing is known of the surroundings.
-  geometry::Vec3 origin = geometry::Vec3::Zero();    ///< Of the setup's frame; machine frame, mm.
-};
+/// The frame in force, in the machine frame.
+geometry::Frame frame_in_force(const execution::State& state);
 
 /// What surrounds the machine: how near it is to each obstacle, and when it touches one. Everything is judged as the
 /// machine moves now, whatever has been changed by hand. The scene is loaded when it is first asked for. The setup
 /// stays where the run as it was launched has it.
 class Surroundings {
  public:
-  using Load = std::function<PlacedScene()>;
+  /// Loads the scene; null if nothing is known of the surroundings.
+  using LoadScene = std::function<std::shared_ptr<const verification::Scene>()>;
+  /// Finds the origin of the setup's frame; machine frame, mm.
+  using FindOrigin = std::function<geometry::Vec3()>;
 
-  explicit Surroundings(Load load) : load_(std::move(load)) {}
+  /// Both are called once, when they are needed.
+  Surroundings(LoadScene load, FindOrigin find_origin) : load_(std::move(load)), find_origin_(std::move(find_origin)) {}
   Surroundings(const Surroundings&) = delete;
   Surroundings& operator=(const Surroundings&) = delete;
 
@@ -35,6 +37,12 @@ class Surroundings {
   /// The obstacles around the machine as it stands in the simulation, nearest first; none without a scene. Valid until
   /// the next call.
   const std::vector<verification::Neighbor>& neighbors_of(const simulation::Simulation& simulation) const;
+
+  /// The smallest distance of what should stay away from an obstacle, mm; infinite if nothing should, NaN without a
+  /// scene.
+  double clearance_of(const simulation::Simulation& simulation) const;
+  /// How deep the machine is in an obstacle, mm; 0 if it is in none, NaN without a scene.
+  double depth_of(const simulation::Simulation& simulation) const;
 
   /// Takes the simulation to the end of the block in progress or, between two blocks, of the next one. Returns the
   /// contacts that begin on the way, by time, each with the depth that it reaches in this block. An obstacle that the
@@ -56,8 +64,10 @@ class Surroundings {
   const verification::BodyPairs& bodies_with(const execution::ToolCode& tool,
                                              const simulation::TimedMachine& machine) const;
 
-  Load load_;
-  mutable std::optional<PlacedScene> placed_;  ///< None before it has been loaded.
+  LoadScene load_;
+  FindOrigin find_origin_;
+  mutable std::optional<std::shared_ptr<const verification::Scene>> scene_;  ///< None before it has been loaded.
+  mutable std::optional<geometry::Vec3> origin_;                             ///< None before it has been found.
   mutable std::map<execution::ToolCode, verification::BodyPairs> bodies_;
   mutable std::optional<KnownPose> last_;
 };

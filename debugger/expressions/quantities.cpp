@@ -77,6 +77,15 @@ static double read_time(const Moment& moment, int) {
 static double read_speed(const Moment& moment, int) {
   return moment.machine != nullptr ? moment.machine->sample().speed * kinematics::kSecondsPerMinute : kUnknown;
 }
+static double read_clearance(const Moment& moment, int) {
+  if (moment.machine == nullptr || moment.surroundings == nullptr) return kUnknown;
+  return moment.surroundings->clearance_of(*moment.machine);
+}
+static double read_depth(const Moment& moment, int) {
+  if (moment.contact_depth) return *moment.contact_depth;
+  if (moment.machine == nullptr || moment.surroundings == nullptr) return kUnknown;
+  return moment.surroundings->depth_of(*moment.machine);
+}
 static double read_feed(const Moment& moment, int) { return execution::feed_in_force(moment.state).number; }
 static double read_spindle_speed(const Moment& moment, int) { return moment.state.spindle_speed; }
 static double read_spindle(const Moment& moment, int) { return moment.state.spindle_function; }
@@ -180,6 +189,15 @@ constexpr Quantity kSingle[] = {
     {.name = "HEAD", .meaning = {"head of the tool", "testa dell'utensile"}, .read = read_tool, .index = 1},
     {.name = "HOLDER", .meaning = {"holder of the tool", "portautensile"}, .read = read_tool, .index = 2},
     {.name = "TOOL", .meaning = {"number of the tool", "numero dell'utensile"}, .read = read_tool, .index = 3},
+    {.name = "CLEARANCE",
+     .meaning = {"distance from the nearest obstacle to stay away from",
+                 "distanza dall'ostacolo più vicino da cui stare lontano"},
+     .unit = "mm",
+     .read = read_clearance},
+    {.name = "DEPTH",
+     .meaning = {"depth of a contact; 0 without one", "profondità di un contatto; 0 se non c'è"},
+     .unit = "mm",
+     .read = read_depth},
     {.name = "VGPL",
      .meaning = {"GPL variable that IF compares", "variabile GPL confrontata da IF"},
      .read = read_vgpl,

@@ -7,9 +7,10 @@ namespace isocnc::requests {
 static Json answer_scopes(Session& session) {
   session.stopped_debuggee();
   Json scopes = Json::array();
-  for (const session::Scope& scope : session::all_scopes()) {
-    Json json = {
-        {"name", session.in_language(scope.name)}, {"variablesReference", scope.reference}, {"expensive", false}};
+  for (const session::Scope& scope : session::scopes_of(session)) {
+    Json json = {{"name", session.in_language(scope.name)},
+                 {"variablesReference", scope.reference},
+                 {"expensive", scope.is_expensive}};
     if (!scope.hint.empty()) json["presentationHint"] = scope.hint;
     scopes.push_back(json);
   }

@@ -51,7 +51,12 @@ void Session::begin(LaunchOptions options) {
   state_.launch_options = std::move(options);
   state_.configuration = std::move(launched.configuration);
   state_.debuggee = std::make_shared<debuggee::Debuggee>(std::move(launched.debuggee));
-  state_.surroundings = std::make_shared<const debuggee::Surroundings>([this] { return load_surroundings(); });
+  state_.surroundings = std::make_shared<const debuggee::Surroundings>(
+      [this] { return load_scene(); },
+      [this] {
+        const running::RunOptions run = run_options(launch_options(), state_.configuration);
+        return verification::first_workpiece_origin(debuggee().text().text(), run);
+      });
   state_.journal = {};
   state_.exception.reset();
   state_.exception_filters.warnings.clear();
@@ -61,15 +66,12 @@ void Session::begin(LaunchOptions options) {
   report_moved_breakpoints();
 }
 
-/// As they were launched. What is wrong with their description is reported: then there are none.
-debuggee::PlacedScene Session::load_surroundings() {
+/// What is wrong with its description is reported: then there is none.
+std::shared_ptr<const verification::Scene> Session::load_scene() {
   configuration::Scenes scenes(language());
-  debuggee::PlacedScene placed{.scene = scenes.of(state_.configuration, launch_options().program)};
+  auto scene = scenes.of(state_.configuration, launch_options().program);
   for (const std::string& mistake : scenes.mistakes(language())) notifier_.report_output("important", mistake);
-  if (placed.scene)
-    placed.origin = verification::first_workpiece_origin(debuggee().text().text(),
-                                                         run_options(launch_options(), state_.configuration));
-  return placed;
+  return scene;
 }
 
 void Session::configuration_done() {

@@ -55,6 +55,8 @@ class Session : public expressions::Controls {
   const debuggee::Debuggee& debuggee() const;
   /// The debuggee, which stands.
   debuggee::Debuggee& stopped_debuggee() const override;
+  /// Of the debuggee.
+  const debuggee::Surroundings& surroundings() const { return *state_.surroundings; }
   const debuggee::Journal& journal() const { return state_.journal; }
   expressions::Moment moment() const;
   /// Reason of the present stop, where it is an exception.
@@ -96,7 +98,7 @@ class Session : public expressions::Controls {
 
  private:
   void begin(LaunchOptions options);
-  debuggee::PlacedScene load_surroundings();
+  std::shared_ptr<const verification::Scene> load_scene();
   void place_source_breakpoints();
   void report_moved_breakpoints();
   void require_launch() const;

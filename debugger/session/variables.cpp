@@ -33,10 +33,12 @@ enum Reference : std::int64_t {
   kFaceFrame,
   kToolValues,
   kFunctionParameters,
+  kSurroundings,
   kFunctions = 1000,  ///< The number of an M is added to it.
+  kNeighbors = 2000,  ///< The place of an obstacle among all, from 0, is added to it.
 };
 
-constexpr std::array<Scope, 8> kScopes{{
+constexpr std::array<Scope, 9> kScopes{{
     {{"Position", "Posizione"}, kPosition, "locals"},
     {{"Modal groups", "Gruppi modali"}, kModes, {}},
     {{"Feed and spindle", "Feed e mandrino"}, kFeedAndSpindle, {}},
@@ -45,6 +47,7 @@ constexpr std::array<Scope, 8> kScopes{{
     {{"Registers", "Registri"}, kRegisters, "registers"},
     {{"GPL variables", "Variabili GPL"}, kGpl, {}},
     {{"Times", "Tempi"}, kTimes, {}},
+    {{"Surroundings", "Dintorni"}, kSurroundings, {}, true},
 }};
 
 constexpr Text kMachineTip{"Machine", "Macchina"};
@@ -73,6 +76,12 @@ constexpr Text kBlocks{"Blocks executed", "Blocchi eseguiti"};
 constexpr Text kFeedInForce{"Feed mode", "Modo del feed"};
 constexpr Text kPerMinute{"G94, per minute", "G94, al minuto"};
 constexpr Text kInverse{"G93, inverse time", "G93, inverso del tempo"};
+constexpr Text kHit{"hit, {} mm deep", "urto, profondità {} mm"};
+constexpr Text kPart{"Part", "Parte"};
+constexpr Text kDistance{"Distance", "Distanza"};
+constexpr Text kDepth{"Depth", "Profondità"};
+constexpr Text kPoint{"Point", "Punto"};
+constexpr Text kDescribed{"Described", "Descritto"};
 constexpr Text kNoSuchVariables{"there are no variables with the reference {}",
                                 "non ci sono variabili con il riferimento {}"};
 
@@ -218,7 +227,42 @@ class Listing {
     add_quantity("LINE");
   }
 
+  /// The nearest obstacle first.
+  void list_surroundings() {
+    add_quantity("CLEARANCE");
+    add_quantity("DEPTH");
+    const std::vector<verification::Neighbor>& neighbors = session_.surroundings().neighbors_of(present());
+    for (std::size_t i = 0; i < neighbors.size(); ++i) {
+      const verification::Neighbor& each = neighbors[i];
+      variables.push_back({.name = text::printable(each.whom.in(session_.language())),
+                           .value = each.is_contact()
+                                        ? session_.in_language(kHit, show_length(std::max(0.0, -each.distance)))
+                                        : fmt::format("{} mm", show_length(each.distance)),
+                           .reference = kNeighbors + static_cast<std::int64_t>(i)});
+    }
+  }
+  void list_neighbor(std::size_t place) {
+    const std::vector<verification::Neighbor>& neighbors = session_.surroundings().neighbors_of(present());
+    if (place >= neighbors.size()) throw dap::RequestError(session_.in_language(kNoSuchVariables, kNeighbors + place));
+    const verification::Neighbor& each = neighbors[place];
+    add(in_language(kPart), text::printable(each.who.in(session_.language())));
+    add(in_language(kDistance), show_length(std::max(0.0, each.distance)), "mm");
+    add(in_language(kDepth), show_length(std::max(0.0, -each.distance)), "mm");
+    const geometry::Vec3 point = debuggee::frame_in_force(moment_.state).to_inner(each.point);
+    add(in_language(kPoint),
+        fmt::format("X {} Y {} Z {}", show_length(point.x()), show_length(point.y()), show_length(point.z())), "mm");
+    if (each.described.file.empty()) return;
+    add(in_language(kDescribed), fmt::format("{}:{}", text::printable(each.described.file), each.described.line + 1));
+  }
+
  private:
+  /// Distances are known to a hundredth.
+  std::string show_length(double value) const {
+    expressions::ValueFormat format = format_;
+    format.decimals = std::min(format.decimals, 2);
+    return expressions::show_value(value, format);
+  }
+
   const simulation::Simulation& present() const { return session_.debuggee().present(); }
 
   std::string pose_text(const geometry::Pose& pose) const {
@@ -302,11 +346,17 @@ constexpr VariableList kPlaces[] = {
     {kFaceFrame, &Listing::list_face_frame},
     {kToolValues, &Listing::list_tool_values},
     {kFunctionParameters, &Listing::list_functions},
+    {kSurroundings, &Listing::list_surroundings},
 };
 
 }  // namespace
 
-std::span<const Scope> all_scopes() { return kScopes; }
+std::vector<Scope> scopes_of(const Session& session) {
+  std::vector<Scope> scopes(kScopes.begin(), kScopes.end());
+  if (!session.surroundings().are_known())
+    std::erase_if(scopes, [](const Scope& scope) { return scope.reference == kSurroundings; });
+  return scopes;
+}
 
 std::vector<Variable> variables_of(const Session& session, std::int64_t reference,
                                    const expressions::ValueFormat& format) {
@@ -314,6 +364,10 @@ std::vector<Variable> variables_of(const Session& session, std::int64_t referenc
   Listing listing(session, format);
   if (reference > kFunctions && reference < kFunctions + 1000) {
     listing.list_function(static_cast<int>(reference - kFunctions));
+    return listing.variables;
+  }
+  if (reference >= kNeighbors) {
+    listing.list_neighbor(static_cast<std::size_t>(reference - kNeighbors));
     return listing.variables;
   }
   for (const VariableList& place : kPlaces) {

@@ -22,10 +22,12 @@ struct Variable {
 struct Scope {
   dialect::Text name;
   std::int64_t reference = 0;
-  std::string_view hint;  ///< `locals`, `registers`; empty for none.
+  std::string_view hint;      ///< `locals`, `registers`; empty for none.
+  bool is_expensive = false;  ///< Whether its variables take long to find.
 };
 
-std::span<const Scope> all_scopes();
+/// Those that have something to show.
+std::vector<Scope> scopes_of(const Session& session);
 
 /// The variables that a scope or variable holds. The references are always the same. Throws RequestError for one that
 /// does not exist.

@@ -20,10 +20,11 @@ class NeighborList {
  public:
   explicit NeighborList(const BodyPairs& bodies) : bodies_(bodies), nearest_(bodies.obstacles.size()) {}
 
-  void take(const BodyPair& pair, double distance, const Vec3& point) {
+  void take(const BodyPair& pair, double distance, const Vec3& point, bool touches) {
     const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
     std::optional<Neighbor>& known = nearest_[pair.obstacle];
     if (!known) known = {.whom = obstacle.name, .role = obstacle.body->role, .described = obstacle.body->described};
+    known->touches = known->touches || touches;
     if (pair.is_watched) known->clearance = std::min(known->clearance, distance);
     if (!(distance < known->distance)) return;
     known->who = bodies_.parts[pair.part].name;
@@ -61,7 +62,8 @@ std::vector<Neighbor> neighbors_at(const BodyPairs& bodies, const kinematics::Ki
         pair.revolved
             ? distance_to(obstacle.shape, *pair.revolved, {place.translation(), place.linear().col(2)}, solids::kExact)
             : distance_to(obstacle.shape, part.body->shape, place, solids::kExact);
-    nearest.take(pair, found.upper - obstacle.slack, found.on_obstacle + obstacle.shift);
+    nearest.take(pair, found.upper - obstacle.slack, found.on_obstacle + obstacle.shift,
+                 found.upper <= kContactDistance);
   }
   return nearest.sorted();
 }
@@ -80,7 +82,7 @@ std::vector<Neighbor> neighbors_along(const BodyPairs& bodies, const kinematics:
   }
   NeighborList nearest(wide);
   for (const Encounter& encounter : examine(stretches, wide, machine.kinematics).encounters)
-    nearest.take(wide.pairs[encounter.pair], encounter.distance, encounter.point);
+    nearest.take(wide.pairs[encounter.pair], encounter.distance, encounter.point, encounter.is_contact);
   return nearest.sorted();
 }
 

@@ -20,8 +20,10 @@ struct Neighbor {
   /// it may touch.
   double clearance = std::numeric_limits<double>::infinity();
   geometry::Vec3 point = geometry::Vec3::Zero();  ///< Of the obstacle; mm, machine frame with all joints at 0.
+  bool touches = false;                           ///< See is_contact().
 
-  bool is_contact() const { return distance <= kContactDistance; }
+  /// Whether a motion to here is a contact. The cutter touches none of the board that it is allowed to cut.
+  bool is_contact() const { return touches; }
 };
 
 /// The obstacles around the machine where its joints are at `joints`, nearest first.

@@ -255,6 +255,66 @@ TEST_F(Contacts, AreOffWithoutDebugging) {
   EXPECT_FALSE(client.has_event("stopped"));
 }
 
+using Surroundings = Contacts;
+
+TEST_F(Surroundings, ListObstaclesNearestFirst) {
+  launch("M06 T101001\nG92 X5 Y0 Z0\nG00 X55 Y0 Z20\nM100\nG01 X100 F1000\nM02\n");
+  client.set_lines({5});
+  client.run("configurationDone");
+  // The setup is in the workpiece frame: the edge of the cutter is at X65 there.
+  EXPECT_EQ(client.variable("Surroundings", "CLEARANCE"), "35");
+  EXPECT_EQ(client.variable("Surroundings", "DEPTH"), "0");
+  EXPECT_EQ(client.evaluate("CLEARANCE"), "35");
+  std::vector<std::string> all;
+  for (const Json& each : client.variables("Surroundings"))
+    all.push_back(each.at("name").get<std::string>() + "=" + each.at("value").get<std::string>());
+  EXPECT_THAT(all, ElementsAre("CLEARANCE=35", "DEPTH=0", "post 1=35 mm", "post 2=135 mm", "post 3=235 mm"));
+  client.set_lines({6});
+  client.run("continue");
+  EXPECT_EQ(client.evaluate("DEPTH"), "10");
+  EXPECT_EQ(client.evaluate("DEPTH > 1 && CLEARANCE < 0"), "1");
+  EXPECT_EQ(client.variable("Surroundings", "post 1"), "hit, 10 mm deep");
+  std::vector<std::string> below = client.below("Surroundings", "post 1");
+  ASSERT_EQ(below.size(), 5u);
+  EXPECT_EQ(below[0], "Part=the cutter of T101001");
+  EXPECT_EQ(below[1], "Distance=0");
+  EXPECT_EQ(below[2], "Depth=10");
+  EXPECT_THAT(below[3], testing::StartsWith("Point=X 100 Y"));
+  EXPECT_THAT(below[4], testing::EndsWith("isocnc.json:7"));
+  EXPECT_THAT(client.refusal("variables", {{"variablesReference", 2003}}), HasSubstr("2003"));
+}
+
+TEST_F(Surroundings, AreNotShownWithoutAScene) {
+  launch(kProgram, R"({"machine": {}})");
+  client.set_lines({3});
+  client.run("configurationDone");
+  EXPECT_THROW(client.variables("Surroundings"), std::runtime_error);
+  EXPECT_EQ(client.evaluate("CLEARANCE"), "-");
+  EXPECT_EQ(client.evaluate("DEPTH >= 0"), "0");
+}
+
+/// In the condition of the filter, DEPTH is how deep the contact gets in the block.
+TEST_F(Surroundings, MayBeAConditionOfContacts) {
+  launch(kProgram);
+  turn_on(client, "DEPTH > 4.5 && DEPTH < 10");
+  const Moments moments = moments_of(client, 11);
+  ASSERT_EQ(moments.on.size(), 1u);
+  EXPECT_EQ(moments.on[0].line, 8);
+  EXPECT_EQ(moments.on, moments.back);
+}
+
+TEST_F(Surroundings, CountInConditionsAndMessages) {
+  launch(kProgram);
+  client.set_breakpoints({{{"line", 4}, {"logMessage", "{CLEARANCE,1} mm"}},
+                          {{"line", 5}, {"condition", "CLEARANCE > 90.5"}},
+                          {{"line", 6}, {"condition", "DEPTH = 0 && CLEARANCE < 80"}}});
+  client.run("configurationDone");
+  EXPECT_EQ(client.line(), 6);
+  Json output = client.event("output");
+  while (output.at("category") != "console") output = client.event("output");
+  EXPECT_EQ(output.at("output"), "90.6 mm\n");
+}
+
 /// The contacts of a verification.
 std::vector<verification::Contact> verified_contacts(const std::filesystem::path& file) {
   configuration::Configurations configurations({}, dialect::Language::English);

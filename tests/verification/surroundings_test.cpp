@@ -51,6 +51,19 @@ TEST(Surroundings, ListsTheNearestPartOfEachObstacleNearestFirst) {
   EXPECT_FALSE(found[1].is_contact());
 }
 
+/// A cut as deep into the board as is allowed is no contact, in a verification or here.
+TEST(Surroundings, CutterMayReachTheAllowedDepthOfTheSpoilboard) {
+  Shop shop;
+  shop.scene.nose.reset();
+  shop.box("", {-500, -500, -50}, {500, 500, 0}, BodyRole::Spoilboard);
+  const auto found = [&](double z) {
+    return neighbors_at(bodies_of(shop), shop.machine.motion.kinematics, joints_of({0, 0, z}))[0];
+  };
+  EXPECT_FALSE(found(0).is_contact());
+  EXPECT_NEAR(found(0).distance, 0, 1e-9);
+  EXPECT_TRUE(found(-0.05).is_contact());
+}
+
 TEST(Surroundings, CutterMayComeNearThePartAndTheSpoilboard) {
   Shop shop;
   shop.scene.nose.reset();
