@@ -31,6 +31,25 @@ void Breakpoints::set_functions(std::vector<FunctionBreakpoint> breakpoints) {
 void Breakpoints::set_data(std::vector<DataBreakpoint> breakpoints) {
   go_on_counting(breakpoints, data_);
   data_ = std::move(breakpoints);
+  ++revision_;
+}
+
+std::vector<debuggee::SurroundingsLimit> Breakpoints::limits() const {
+  std::vector<debuggee::SurroundingsLimit> limits;
+  for (const DataBreakpoint& each : data_)
+    if (each.watched.limit) limits.push_back(*each.watched.limit);
+  return limits;
+}
+
+void Breakpoints::judge_limit(std::size_t limit, const expressions::Moment& moment, std::uint64_t block,
+                              RunDirection direction, BreakpointOutcome& outcome) {
+  for (DataBreakpoint& each : data_)
+    if (each.watched.limit && limit-- == 0) return reach(each, moment, block, direction, outcome);
+}
+
+std::string Breakpoints::name_of(std::int64_t id) const {
+  const auto found = std::find_if(data_.begin(), data_.end(), [id](const auto& each) { return each.id == id; });
+  return found == data_.end() ? std::string() : found->watched.name;
 }
 
 bool Breakpoints::has_thresholds() const {
@@ -86,7 +105,8 @@ void Breakpoints::start_trail(const expressions::Moment& moment, expressions::Va
 }
 
 void Breakpoints::read_data(const expressions::Moment& moment, expressions::ValueTrail& trail) const {
-  for (const DataBreakpoint& each : data_) trail.values.push_back(each.watched.value.at(moment));
+  for (const DataBreakpoint& each : data_)
+    trail.values.push_back(each.watched.limit ? 0 : each.watched.value.at(moment));
 }
 
 void Breakpoints::read_arc(const debuggee::BlockEffect& effect, const expressions::Moment& moment,

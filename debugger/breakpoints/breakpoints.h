@@ -26,6 +26,10 @@ class Breakpoints {
   }
   bool has_functions() const { return !functions_.empty(); }
   bool has_data() const { return !data_.empty(); }
+  /// The limits of the surroundings that data breakpoints watch.
+  std::vector<debuggee::SurroundingsLimit> limits() const;
+  /// Another number after each change of the data breakpoints.
+  std::uint64_t revision() const { return revision_; }
   /// Whether it matters what a value has been between two blocks.
   bool has_thresholds() const;
 
@@ -45,6 +49,10 @@ class Breakpoints {
   void judge_data(const expressions::ValueTrail& trail, const expressions::Moment& moment, std::uint64_t block,
                   RunDirection direction, BreakpointOutcome& outcome);
 
+  /// The data breakpoint with the given one of the limits(), which the run comes to be beyond.
+  void judge_limit(std::size_t limit, const expressions::Moment& moment, std::uint64_t block, RunDirection direction,
+                   BreakpointOutcome& outcome);
+
   /// Begins a trail with the values of the moment before a block.
   void start_trail(const expressions::Moment& moment, expressions::ValueTrail& trail) const;
   /// Appends the values of a moment.
@@ -53,6 +61,8 @@ class Breakpoints {
   /// `moment` is that before or after the block.
   void read_arc(const debuggee::BlockEffect& effect, const expressions::Moment& moment,
                 expressions::ValueTrail& trail) const;
+  /// What a data breakpoint watches, as the client wrote it; empty for others.
+  std::string name_of(std::int64_t id) const;
   /// The change that a data breakpoint has stopped the run for: `V3: 1 -> 2`; empty for others.
   std::string description(std::int64_t id, const expressions::ValueTrail& trail) const;
 
@@ -67,6 +77,7 @@ class Breakpoints {
   std::vector<std::uint64_t> bits_;  ///< A bit for each line, set where it has breakpoints.
   std::vector<FunctionBreakpoint> functions_;
   std::vector<DataBreakpoint> data_;
+  std::uint64_t revision_ = 0;
 };
 
 }  // namespace isocnc::breakpoints

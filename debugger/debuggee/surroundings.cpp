@@ -41,7 +41,7 @@ const BodyPairs& Surroundings::bodies_with(const execution::ToolCode& tool,
 const std::vector<Neighbor>& Surroundings::neighbors_of(const Simulation& simulation) const {
   static const std::vector<Neighbor> kNone;
   if (!are_known()) return kNone;
-  const execution::ToolCode& tool = simulation.run().state.tool;
+  const execution::ToolCode& tool = simulation.tool();
   const kinematics::Coordinates joints = simulation.sample().joints;
   if (!last_ || last_->tool != tool || last_->joints != joints)
     last_ = {.tool = tool,
@@ -66,12 +66,14 @@ double Surroundings::depth_of(const Simulation& simulation) const {
   return neighbors.empty() ? 0 : std::max(0.0, -neighbors.front().distance);
 }
 
-/// Gathers the stretches of a block, and finds the contacts that begin on them.
-class BlockContacts {
+/// Gathers the stretches of a block, and finds what happens on them.
+class BlockPass {
  public:
-  BlockContacts(const Surroundings& surroundings, const Simulation& before)
-      : surroundings_(surroundings), machine_(before.machine()), tool_(before.run().state.tool) {
+  BlockPass(const Surroundings& surroundings, const Surroundings::Wanted& wanted, const Simulation& before)
+      : surroundings_(surroundings), wanted_(wanted), machine_(before.machine()), tool_(before.tool()) {
     if (const Stretch* const stretch = before.stretch_before()) stretch_before_ = *stretch;
+    for (const SurroundingsLimit& limit : wanted.limits)
+      was_beyond_.push_back(limit.is_beyond(surroundings.neighbors_of(before)));
   }
 
   void take(const running::Event& event, const Stretch* stretch) {
@@ -81,18 +83,35 @@ class BlockContacts {
     } else if (const auto* const change = std::get_if<running::ToolEvent>(&event.what)) {
       examine();
       tool_ = change->tool;
+      changes_tool_ = true;
       stretch_before_.reset();
     }
   }
 
-  std::vector<Contact> contacts(const execution::State& state) {
-    frame_ = frame_in_force(state);
+  Surroundings::PassedBlock finish(const Simulation& after) {
+    frame_ = frame_in_force(after.run().state);
     examine();
-    return std::move(contacts_);
+    for (std::size_t i = 0; changes_tool_ && i < wanted_.limits.size(); ++i)
+      if (!was_beyond_[i] && wanted_.limits[i].is_beyond(surroundings_.neighbors_of(after)))
+        passed_.crossings.push_back({.time = after.time(), .limit = i});
+    return std::move(passed_);
   }
 
  private:
   static constexpr std::size_t kBefore = std::numeric_limits<std::size_t>::max();
+
+  void examine() {
+    if (stretches_.empty()) return;
+    const BodyPairs& bodies = surroundings_.bodies_with(tool_, machine_);
+    if (wanted_.contacts) find_contacts(bodies);
+    for (const Stretch& stretch : stretches_)
+      for (std::size_t i = 0; i < wanted_.limits.size(); ++i)
+        for (const double time : crossings_of(wanted_.limits[i], stretch, bodies, machine_.motion.kinematics))
+          passed_.crossings.push_back({.time = time, .limit = i});
+    stretch_before_ = stretches_.back();
+    stretches_.clear();
+    lines_.clear();
+  }
 
   /// The encounters of stretches that are contacts.
   std::vector<Encounter> contacts_on(std::span<const Stretch> stretches, const BodyPairs& bodies) const {
@@ -101,9 +120,7 @@ class BlockContacts {
     return found;
   }
 
-  void examine() {
-    if (stretches_.empty()) return;
-    const BodyPairs& bodies = surroundings_.bodies_with(tool_, machine_);
+  void find_contacts(const BodyPairs& bodies) {
     verification::ContactLog log;
     const std::vector<Encounter> found = contacts_on(stretches_, bodies);
     // The stretch before matters only where the first one touches something.
@@ -115,34 +132,37 @@ class BlockContacts {
                tool_);
     log.close_all();
     for (const Contact& contact : log.contacts())
-      if (contact.line != kBefore) contacts_.push_back(contact);
-    stretch_before_ = stretches_.back();
-    stretches_.clear();
-    lines_.clear();
+      if (contact.line != kBefore) passed_.contacts.push_back(contact);
   }
 
   const Surroundings& surroundings_;
+  const Surroundings::Wanted& wanted_;
   const simulation::TimedMachine& machine_;
   execution::ToolCode tool_;
   std::optional<Stretch> stretch_before_;
+  std::vector<bool> was_beyond_;  ///< Each limit, at the start.
+  bool changes_tool_ = false;
   std::vector<Stretch> stretches_;
   std::vector<std::size_t> lines_;  ///< Of the stretches.
   geometry::Frame frame_;
-  std::vector<Contact> contacts_;
+  Surroundings::PassedBlock passed_;
 };
 
-std::vector<Contact> Surroundings::pass_block(Simulation& simulation) const {
+Surroundings::PassedBlock Surroundings::pass_block(Simulation& simulation, const Wanted& wanted) const {
   if (!are_known()) {
     simulation.step_block();
     return {};
   }
   const bool was_in_block = simulation.is_in_block();
   const double time = simulation.time();
-  BlockContacts block(*this, simulation);
+  BlockPass block(*this, wanted, simulation);
   simulation.trace_stretches([&](const running::Event& event, const Stretch* stretch) { block.take(event, stretch); });
-  std::vector<Contact> contacts = block.contacts(simulation.run().state);
-  if (was_in_block) std::erase_if(contacts, [time](const Contact& contact) { return !(contact.time > time); });
-  return contacts;
+  PassedBlock passed = block.finish(simulation);
+  if (!was_in_block) return passed;
+  const auto is_past = [time](const auto& each) { return !(each.time > time); };
+  std::erase_if(passed.contacts, is_past);
+  std::erase_if(passed.crossings, is_past);
+  return passed;
 }
 
 }  // namespace isocnc::debuggee

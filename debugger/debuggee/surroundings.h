@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "debugger/debuggee/surroundings_limit.h"
 #include "interpreter/simulation/simulation.h"
 #include "interpreter/verification/contact.h"
 #include "interpreter/verification/surroundings.h"
@@ -44,14 +45,25 @@ class Surroundings {
   /// How deep the machine is in an obstacle, mm; 0 if it is in none, NaN without a scene.
   double depth_of(const simulation::Simulation& simulation) const;
 
-  /// Takes the simulation to the end of the block in progress or, between two blocks, of the next one. Returns the
-  /// contacts that begin on the way, by time, each with the depth that it reaches in this block. An obstacle that the
-  /// tool touches already when a stretch begins is no new contact; a tool that is mounted in an obstacle touches it
-  /// when it is moved next.
-  std::vector<verification::Contact> pass_block(simulation::Simulation& simulation) const;
+  /// What happens on the way through a block.
+  struct PassedBlock {
+    /// Contacts that begin, by time, each with the depth that it reaches in this block.
+    std::vector<verification::Contact> contacts;
+    /// Where the machine comes to be beyond one of the limits: within a motion, or at the end of a tool change.
+    std::vector<LimitCrossing> crossings;
+  };
+  /// What is looked for in a block.
+  struct Wanted {
+    bool contacts = false;
+    std::vector<SurroundingsLimit> limits;
+  };
+  /// Takes the simulation to the end of the block in progress or, between two blocks, of the next one. An obstacle that
+  /// the stretch before touches is no new contact; a tool that is mounted in an obstacle touches it when it is moved
+  /// next.
+  PassedBlock pass_block(simulation::Simulation& simulation, const Wanted& wanted) const;
 
  private:
-  friend class BlockContacts;
+  friend class BlockPass;
 
   /// The obstacles around a pose of the machine.
   struct KnownPose {

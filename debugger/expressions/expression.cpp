@@ -227,6 +227,15 @@ bool Expression::holds_at(const Moment& moment) const { return is_true(at(moment
 
 const Quantity* Expression::sole_quantity() const { return code_.size() == 1 ? code_.front().quantity : nullptr; }
 
+bool Expression::is_constant() const {
+  return std::all_of(code_.begin(), code_.end(), [](const auto& each) { return each.quantity == nullptr; });
+}
+
+bool Expression::reads_surroundings() const {
+  return std::any_of(code_.begin(), code_.end(),
+                     [](const auto& each) { return each.quantity != nullptr && each.quantity->is_of_surroundings; });
+}
+
 /// What follows the comma: `x`, `2`. None where it is no format.
 static std::optional<ValueFormat> read_format(std::string_view text, ValueFormat format) {
   if (text == "x" || text == "X" || text == "h") {

@@ -44,6 +44,9 @@ class Expression {
   bool holds_at(const Moment& moment) const;
   /// The quantity whose name is the whole expression; null for any other expression.
   const Quantity* sole_quantity() const;
+  /// Whether it names no quantity.
+  bool is_constant() const;
+  bool reads_surroundings() const;
 
  private:
   friend class ExpressionCompiler;

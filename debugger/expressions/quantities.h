@@ -64,6 +64,7 @@ struct Quantity {
   Read read = nullptr;
   int index = 0;      ///< Which one of its kind: of registers the number.
   Set set = nullptr;  ///< Null for a quantity that cannot be set.
+  bool is_of_surroundings = false;
 
   double at(const Moment& moment) const { return read(moment, index); }
 };

@@ -13,6 +13,27 @@ static double constant(const Expression& expression) {
   return expression.at({.state = kState, .registers = kRegisters});
 }
 
+static constexpr dialect::Text kNeedsLimit{
+    "CLEARANCE and DEPTH change all along a path: watch a limit, as CLEARANCE < 5",
+    "CLEARANCE e DEPTH cambiano lungo tutto il percorso: sorvegliare un limite, come CLEARANCE < 5"};
+
+/// `CLEARANCE < 5`. None for what is no limit of the surroundings.
+static std::optional<debuggee::SurroundingsLimit> read_limit(std::string_view text, dialect::Language language) {
+  const std::size_t sign = text.find_first_of("<>");
+  if (sign == std::string_view::npos || sign + 1 == text.size()) return std::nullopt;
+  const std::size_t right = text[sign + 1] == '=' ? sign + 2 : sign + 1;
+  const auto quantity = Expression::compile(text.substr(0, sign), language);
+  const auto value = Expression::compile(text.substr(right), language);
+  if (!std::holds_alternative<Expression>(quantity) || !std::holds_alternative<Expression>(value)) return std::nullopt;
+  const Quantity* const watched = std::get<Expression>(quantity).sole_quantity();
+  const auto& number = std::get<Expression>(value);
+  if (watched == nullptr || !watched->is_of_surroundings || !number.is_constant()) return std::nullopt;
+  const double limit = constant(number);
+  if (!std::isfinite(limit)) return std::nullopt;
+  return debuggee::SurroundingsLimit{
+      .is_of_depth = watched == find_quantity("DEPTH"), .is_from_below = text[sign] == '>', .value = limit};
+}
+
 std::variant<WatchedValue, ExpressionProblem> WatchedValue::compile(std::string_view text, dialect::Language language) {
   const std::size_t equals = text.find('=');
   const bool has_threshold = equals != std::string_view::npos && equals > 0 &&
@@ -22,6 +43,10 @@ std::variant<WatchedValue, ExpressionProblem> WatchedValue::compile(std::string_
   WatchedValue result;
   result.value = std::get<Expression>(std::move(value));
   result.name = text::trimmed(text);
+  if (result.value.reads_surroundings()) {
+    result.limit = has_threshold ? std::nullopt : read_limit(text, language);
+    if (!result.limit) return ExpressionProblem{std::string(kNeedsLimit.in(language))};
+  }
   if (!has_threshold) return result;
   const std::size_t right = text.find_first_not_of('=', equals);
   const auto threshold = Expression::compile(right == std::string_view::npos ? "" : text.substr(right), language);
@@ -40,6 +65,7 @@ bool WatchedValue::is_change(double before, double after) const {
 
 /// Between the ends of the trail only what is known counts.
 std::optional<std::pair<double, double>> WatchedValue::find_change(const ValueTrail& trail, std::size_t place) const {
+  if (limit) return std::nullopt;
   const std::size_t last = trail.values.size() - trail.width + place;
   const double start = trail.values[place];
   double before = start;

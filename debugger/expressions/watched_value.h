@@ -17,13 +17,16 @@ struct ValueTrail {
   std::vector<double> values;
 };
 
-/// What a data breakpoint watches: a value that becomes another one, or that passes a threshold.
+/// What a data breakpoint watches: a value that becomes another one, that passes a threshold, or that of the
+/// surroundings where it comes to be beyond a limit.
 struct WatchedValue {
   Expression value;
   std::string name;                 ///< As the client wrote it.
   std::optional<double> threshold;  ///< `Z = 0`: crossed when the value comes to it or passes it.
 
-  /// `V3`, `Z`, `Z = 0`.
+  std::optional<debuggee::SurroundingsLimit> limit;  ///< `CLEARANCE < 5`: found within blocks, on no trail.
+
+  /// `V3`, `Z`, `Z = 0`, `CLEARANCE < 5`.
   static std::variant<WatchedValue, ExpressionProblem> compile(std::string_view text, dialect::Language language);
 
   /// The values before and after the first change on the trail, where this value has the given place in each moment.

@@ -65,7 +65,7 @@ std::optional<BackwardSearch::Hit> BackwardSearch::find_moment_from(std::uint64_
       if (before.blocks() + 1 >= start_ && !(moment.time < start_time_)) continue;
       simulation::Simulation there = before;
       moment.time > there.time() ? there.advance_in_block(moment.time) : there.step_instruction();
-      if (!judge_moment(moment, state_, there)) continue;
+      if (!judge_moment(moment, state_, there, before.blocks(), breakpoints::RunDirection::Backward).stops()) continue;
       last = Hit{.block = before.blocks(), .moment = std::move(moment)};
       return true;
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -7,10 +9,19 @@
 
 namespace isocnc::session {
 
-/// A moment within a block at which a run may stop.
+/// A moment within a block at which a run may stop: a contact, or a limit of a data breakpoint.
 struct InnerMoment {
   double time = 0;  ///< Seconds since the start.
-  verification::Contact contact;
+  std::optional<verification::Contact> contact;
+  std::size_t limit = 0;  ///< Without a contact: index among the limits of the data breakpoints.
+};
+
+/// What comes of a moment.
+struct MomentVerdict {
+  std::optional<breakpoints::Exception> exception;
+  breakpoints::Breakpoints::BreakpointOutcome outcome;
+
+  bool stops() const { return exception || !outcome.stopped.empty(); }
 };
 
 /// Whether a run may stop within a block.
@@ -20,8 +31,8 @@ bool watches_blocks(const SessionState& state);
 /// Returns the moments on the way at which a run may stop, by time.
 std::vector<InnerMoment> pass_block(const SessionState& state, simulation::Simulation& simulation);
 
-/// Why a run stops at a moment that `there` has reached; none where it does not.
-std::optional<breakpoints::Exception> judge_moment(const InnerMoment& moment, const SessionState& state,
-                                                   const simulation::Simulation& there);
+/// Judges a moment in a block that `there` has reached.
+MomentVerdict judge_moment(const InnerMoment& moment, SessionState& state, const simulation::Simulation& there,
+                           std::uint64_t block, breakpoints::RunDirection direction);
 
 }  // namespace isocnc::session

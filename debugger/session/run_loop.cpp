@@ -320,7 +320,7 @@ void RunLoop::go_back_to(const BackwardSearch::Hit& hit) {
   });
   stop_check_.expect_judgement();
   state_.exception.reset();
-  if (hit.moment) return stop(stop_check_.at_moment(*hit.moment));
+  if (hit.moment) return stop(stop_check_.at_moment(*hit.moment, hit.block));
   const auto due = stop_check_.on_arrival();
   if (hit.is_change) return stop({.reason = "data breakpoint"});
   stop(due ? *due : Stop{.reason = "breakpoint"});

@@ -34,7 +34,7 @@ std::optional<double> StopCheck::next_moment() {
   if (state_.launch_options.no_debug || !watches_blocks(state_)) return std::nullopt;
   const simulation::Simulation& present = state_.debuggee->present();
   const std::uint64_t block = present.blocks() - (present.is_in_block() ? 1 : 0);
-  const std::uint64_t revision = state_.exception_filters.revision();
+  const std::uint64_t revision = state_.exception_filters.revision() + state_.breakpoints.revision();
   if (!coming_ || coming_->block != block || coming_->revision != revision) {
     simulation::Simulation ahead = present;
     std::vector<InnerMoment> moments = pass_block(state_, ahead);
@@ -48,20 +48,30 @@ std::optional<double> StopCheck::next_moment() {
 /// Several may be one moment.
 std::optional<Stop> StopCheck::at_moment() {
   const simulation::Simulation& present = state_.debuggee->present();
-  std::optional<breakpoints::Exception> found;
+  MomentVerdict all;
   std::deque<InnerMoment>& moments = coming_->moments;
   for (; !moments.empty() && moments.front().time <= present.time(); moments.pop_front()) {
-    auto another = judge_moment(moments.front(), state_, present);
-    if (found && another) found->message += "; " + another->message;
-    if (!found) found = std::move(another);
+    MomentVerdict each =
+        judge_moment(moments.front(), state_, present, coming_->block, breakpoints::RunDirection::Forward);
+    if (all.exception && each.exception) all.exception->message += "; " + each.exception->message;
+    if (!all.exception) all.exception = std::move(each.exception);
+    all.outcome.stopped.insert(all.outcome.stopped.end(), each.outcome.stopped.begin(), each.outcome.stopped.end());
+    report_messages(each.outcome, present.line());
   }
-  if (!found) return std::nullopt;
-  return stop_at(std::move(*found));
+  if (!all.stops()) return std::nullopt;
+  return stop_at(std::move(all));
 }
 
-Stop StopCheck::at_moment(const InnerMoment& moment) {
-  auto found = judge_moment(moment, state_, state_.debuggee->present());
-  return found ? stop_at(std::move(*found)) : Stop{.reason = "exception"};
+Stop StopCheck::at_moment(const InnerMoment& moment, std::uint64_t block) {
+  return stop_at(judge_moment(moment, state_, state_.debuggee->present(), block, breakpoints::RunDirection::Backward));
+}
+
+Stop StopCheck::stop_at(MomentVerdict verdict) {
+  if (verdict.exception) return stop_at(std::move(*verdict.exception));
+  Stop stop{.reason = "data breakpoint", .details = {{"hitBreakpointIds", verdict.outcome.stopped}}};
+  if (!verdict.outcome.stopped.empty())
+    stop.details["description"] = state_.breakpoints.name_of(verdict.outcome.stopped.front());
+  return stop;
 }
 
 static bool has_same_frame(const execution::State& a, const execution::State& b) {

@@ -40,7 +40,7 @@ class StopCheck {
   /// The run has come to that moment.
   std::optional<Stop> at_moment();
   /// The run has come to this moment, going back.
-  Stop at_moment(const InnerMoment& moment);
+  Stop at_moment(const InnerMoment& moment, std::uint64_t block);
 
   /// A block begins: takes the values that data breakpoints watch.
   void start_block();
@@ -75,6 +75,7 @@ class StopCheck {
   std::optional<Stop> judge_breakpoints();
   std::optional<Stop> judge_exceptions();
   Stop stop_at(breakpoints::Exception exception);
+  Stop stop_at(MomentVerdict verdict);
   std::optional<breakpoints::Exception> find_exception() const;
   std::optional<breakpoints::Exception> find_coming_overtravel() const;
   void report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::size_t line);

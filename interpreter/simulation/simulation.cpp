@@ -71,6 +71,7 @@ Simulation::Simulation(const Simulation& before, const running::Runner& run, con
       last_motion_(before.last_motion_),
       begin_(timing_.tip()),
       start_tool_length_(before.tool_length_),
+      tool_(before.tool_),
       tool_length_(before.tool_length_),
       spindle_(before.spindle_),
       time_(before.time_) {
@@ -173,7 +174,8 @@ void Simulation::continue_block(double seconds, const BeforeReading& before_read
 void Simulation::pass_piece() {
   const running::Event& event = pieces_[passed_].cause->event;
   if (const auto* const change = std::get_if<running::ToolEvent>(&event.what)) {
-    tool_length_ = machine_->tool_length(change->tool);
+    tool_ = change->tool;
+    tool_length_ = machine_->tool_length(tool_);
     has_moved_tool_ = false;
   }
   if (const auto& stretch = pieces_[passed_].stretch) {

@@ -97,6 +97,8 @@ class Simulation {
   /// The last stretch that has been completed with the mounted tool; null if it has not been moved yet.
   const motion::Stretch* stretch_before() const;
   const TimedMachine& machine() const { return *machine_; }
+  /// The mounted tool: within an M06 the one before.
+  const execution::ToolCode& tool() const { return tool_; }
   double tool_length() const { return tool_length_; }  ///< Length of the mounted tool, mm.
   /// The spindle after the block in progress. An S counts only after the next M03 or M04.
   const Timing::SpindleMotion& spindle() const { return spindle_; }
@@ -156,8 +158,9 @@ class Simulation {
   std::shared_ptr<const TimedEvent> last_motion_;
   geometry::Pose begin_;  ///< Tip at the start, with a tool of start_tool_length_.
   double start_tool_length_ = 0;
-  double travelled_ = 0;    ///< Length of the completed stretches of the current motion.
-  double tool_length_ = 0;  ///< Length of the mounted tool, mm.
+  double travelled_ = 0;      ///< Length of the completed stretches of the current motion.
+  execution::ToolCode tool_;  ///< The mounted tool.
+  double tool_length_ = 0;    ///< Its length, mm.
   Timing::SpindleMotion spindle_;
   double time_ = 0;
   bool in_block_ = false;

@@ -315,6 +315,99 @@ TEST_F(Surroundings, CountInConditionsAndMessages) {
   EXPECT_EQ(output.at("output"), "90.6 mm\n");
 }
 
+void watch(DebugClient& client, const std::vector<std::string>& limits) {
+  Json breakpoints = Json::array();
+  for (const std::string& limit : limits) {
+    EXPECT_EQ(client.request("dataBreakpointInfo", {{"name", limit}}).at("dataId"), limit);
+    breakpoints.push_back({{"dataId", limit}});
+  }
+  for (const Json& each : Json(client.request("setDataBreakpoints", {{"breakpoints", breakpoints}}).at("breakpoints")))
+    EXPECT_EQ(each.at("verified"), true) << each;
+}
+
+struct LimitCase {
+  std::string limit;
+  std::vector<std::string> places;  ///< Lines, and what is left of them: `5 X85`.
+};
+
+class Limits : public testing::TestWithParam<LimitCase> {};
+
+TEST_P(Limits, StopTheRunWhereTheyBeginToHold) {
+  DebugClient client;
+  client.write("isocnc.json", kMachine);
+  client.launch(kProgram);
+  watch(client, {GetParam().limit});
+  client.set_lines({11});
+  client.request("configurationDone");
+  std::vector<std::string> places;
+  std::vector<Moment> on;
+  for (auto stop = next_stop(client); stop && stop->code != "breakpoint"; stop = next_stop(client)) {
+    EXPECT_EQ(stop->code, "data breakpoint");
+    on.push_back(*stop);
+    places.push_back(fmt::format("{} X{} Z{}", client.line(), client.evaluate("X,2"), client.evaluate("Z,2")));
+    EXPECT_EQ(client.evaluate(GetParam().limit), "1");
+    client.request("continue");
+  }
+  EXPECT_EQ(places, GetParam().places);
+  client.set_lines({});
+  std::vector<Moment> back;
+  for (Json stopped = client.run("reverseContinue"); stopped.at("reason") != "entry";
+       stopped = client.run("reverseContinue"))
+    back.push_back(moment_of(client, stopped));
+  std::reverse(back.begin(), back.end());
+  EXPECT_EQ(on, back);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Limits,
+    testing::Values(LimitCase{"CLEARANCE < 5", {"5 X85.00 Z20.00", "5 X185.00 Z20.00", "8 X310.00 Z35.00"}},
+                    LimitCase{"CLEARANCE <= 1", {"5 X89.00 Z20.00", "5 X189.00 Z20.00", "8 X310.00 Z31.00"}},
+                    LimitCase{"DEPTH > 8", {"5 X98.00 Z20.00", "5 X198.00 Z20.00", "9 X310.00 Z22.00"}},
+                    LimitCase{"DEPTH < 3", {"5 X127.00 Z20.00", "5 X227.00 Z20.00", "10 X310.00 Z27.00"}},
+                    LimitCase{"CLEARANCE > 25", {"5 X155.00 Z20.00", "7 X252.91 Z60.00", "10 X310.00 Z55.00"}}));
+
+TEST_F(Surroundings, AreWatchedAtALimitAlone) {
+  launch(kProgram);
+  for (const char* const wrong :
+       {"CLEARANCE", "CLEARANCE = 5", "CLEARANCE < V3", "CLEARANCE < 5 && X > 1", "DEPTH + 1", "CLEARANCE < 1/0"}) {
+    EXPECT_TRUE(client.request("dataBreakpointInfo", {{"name", wrong}}).at("dataId").is_null()) << wrong;
+    EXPECT_EQ(client.request("setDataBreakpoints", {{"breakpoints", {{{"dataId", wrong}}}}})
+                  .at("breakpoints")[0]
+                  .at("verified"),
+              false)
+        << wrong;
+  }
+}
+
+/// A longer tool comes nearer as soon as it is mounted: the run stops after the M06.
+TEST_F(Surroundings, AreWatchedOverAToolChange) {
+  launch("M06 T101001\nG00 X110 Y0 Z95\nM06 T101002\nM100\nM02\n");
+  watch(client, {"CLEARANCE < 20"});
+  const Json stopped = client.run("configurationDone");
+  EXPECT_EQ(stopped.at("reason"), "data breakpoint");
+  EXPECT_EQ(stopped.at("description"), "CLEARANCE < 20");
+  EXPECT_EQ(client.line(), 4);
+  client.set_lines({5});
+  client.run("continue");
+  EXPECT_EQ(client.line(), 5);
+  EXPECT_EQ(client.run("reverseContinue").at("reason"), "data breakpoint");
+  EXPECT_EQ(client.line(), 4);
+  EXPECT_EQ(client.run("reverseContinue").at("reason"), "entry");
+}
+
+TEST_F(Surroundings, OfALimitMayBeLoggedAndCounted) {
+  launch(kProgram);
+  client.request(
+      "setDataBreakpoints",
+      {{"breakpoints",
+        {{{"dataId", "CLEARANCE < 5"}, {"condition", "X > 150"}}, {{"dataId", "DEPTH > 1"}, {"hitCondition", "2"}}}}});
+  EXPECT_EQ(client.run("configurationDone").at("description"), "CLEARANCE < 5");
+  EXPECT_EQ(client.evaluate("X,2"), "185.00");
+  EXPECT_EQ(client.run("next").at("reason"), "step");
+  client.run("continue");
+  EXPECT_EQ(client.line(), 8);
+}
+
 /// The contacts of a verification.
 std::vector<verification::Contact> verified_contacts(const std::filesystem::path& file) {
   configuration::Configurations configurations({}, dialect::Language::English);
