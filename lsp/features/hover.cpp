@@ -20,6 +20,7 @@
 #include "lsp/features/feature.h"
 #include "lsp/queries/assignments.h"
 #include "lsp/queries/line_run.h"
+#include "lsp/queries/obstacles.h"
 
 /// Hover: the meaning of a word in its place, the state there, and the findings on it.
 namespace isocnc::features {
@@ -192,6 +193,28 @@ class HoverWriter {
       add(text(kRapid, agreement.of([&](const LineRun& run) { return seconds_in_rapid(in_machine(run)); })));
     }
     if (agreement.is_partial) add(text(kPartial));
+    describe_nearest(runs);
+  }
+
+  /// What of the setup the motion hits or comes nearest to.
+  void describe_nearest(const std::vector<LineRun>& runs) {
+    static constexpr Text kNearest = {"nearest: {}, {} mm", "più vicino: {}, {} mm"};
+    static constexpr Text kHits = {"hits {}, {} mm deep", "urta {}, entra di {} mm"};
+    static constexpr Text kWithoutTool = {" (without the tool, which has no shape)",
+                                          " (senza l'utensile, che non ha forma)"};
+    const std::optional<queries::NearestObstacle> nearest = queries::nearest_obstacle(snapshot_, line_number_, runs);
+    if (!nearest) return;
+    const verification::Neighbor& neighbor = nearest->neighbor;
+    const double amount = neighbor.is_contact() ? -neighbor.distance : neighbor.clearance;
+    const std::string name = as_written(neighbor.whom.in(language_));
+    add(text(neighbor.is_contact() ? kHits : kNearest, name, shown(rounded_gap(amount))) +
+        (nearest->is_without_tool ? std::string(kWithoutTool.in(language_)) : ""));
+  }
+
+  /// Millimeters as they are known: to a tenth, and to a hundredth close by.
+  static double rounded_gap(double millimeters) {
+    const double steps = millimeters < 1 ? 100 : 10;
+    return std::max(0.01, std::round(millimeters * steps) / steps);
   }
 
   /// The length of the tip's path in mm. In a rapid that turns B or C the tip swings.
