@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -41,8 +42,11 @@ KeptRun::KeptRun(simulation::RunOutcome outcome) : outcome_(std::move(outcome)) 
 void KeptRun::replace_lines(std::size_t first, std::size_t removed, std::size_t inserted) {
   const std::size_t after = first + removed;  // The first line that moves.
   std::erase_if(outcome_.findings, [&](const RunFinding& each) { return each.line >= first && each.line < after; });
-  for (RunFinding& each : outcome_.findings)
+  for (RunFinding& each : outcome_.findings) {
     if (each.line >= after) each.line = each.line - removed + inserted;
+    if (!each.last_line || *each.last_line < first) continue;
+    each.last_line = *each.last_line < after ? std::nullopt : std::optional(*each.last_line - removed + inserted);
+  }
   std::vector<std::pair<std::size_t, std::size_t>> executed;
   executed.reserve(outcome_.executed.size() + 1);
   for (const auto& [begin, last] : outcome_.executed) {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -11,11 +13,15 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include "analyzer/formats/related.h"
 #include "analyzer/formats/rendering.h"
+#include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/format.h"
+#include "interpreter/simulation/run_findings.h"
 #include "lsp/documents/rule_page.h"
 #include "lsp/features/feature.h"
+#include "lsp/protocol/uri.h"
 
 /// The findings of isolint for the editor's Problems list: pushed after each edit, or pulled by clients that can pull.
 /// Those that only a run on the machine shows follow the others in the same list, with a source of their own. They are
@@ -80,13 +86,18 @@ class DiagnosticWriter {
                 list);
     list += constant_part(located.finding.id);
     if (source_.is_outdated) append_unnecessary(list);
-    if (sends_related_ && (located.path >= 0 || located.repetitions >= 0)) {
+    if (sends_related_ && has_related(located)) {
       Json related = Json::array();
       if (located.path >= 0) related = path_of(located);
+      add_run_places(located, related);
       add_repetitions(located, related);
       list += R"(,"relatedInformation":)" + rpc::write(related);
     }
     list += '}';
+  }
+
+  static bool has_related(const LocatedFinding& located) {
+    return located.path >= 0 || located.repetitions >= 0 || located.last_line || located.finding.described;
   }
 
   std::string message_of(const LocatedFinding& located) const {
@@ -144,6 +155,27 @@ class DiagnosticWriter {
                        {"message", formats::describe_step(step, line.text, language_)}});
     }
     return steps;
+  }
+
+  /// Where a contact ends, and where a file describes what is hit.
+  void add_run_places(const LocatedFinding& located, Json& related) const {
+    for (const formats::RunPlace& place : formats::run_places(located, language_)) {
+      const bool is_here = place.file.empty();
+      related.push_back(
+          {{"location", is_here ? line_location(place.line - 1) : file_location(place)}, {"message", place.note}});
+    }
+  }
+
+  protocol::Location line_location(std::size_t line) const {
+    const syntax::DocumentLine read = snapshot_.document().line(line);
+    return {snapshot_.uri(), snapshot_.to_client(line, simulation::motion_span(*read))};
+  }
+
+  /// The file is not read: columns after characters of several bytes are a little too large.
+  static protocol::Location file_location(const formats::RunPlace& place) {
+    const protocol::ClientPosition start{static_cast<std::uint32_t>(place.line - 1),
+                                         static_cast<std::uint32_t>(place.column - 1)};
+    return {protocol::uri_of(configuration::real_path(std::filesystem::path(place.file))), {start, start}};
   }
 
   /// The first lines that repeat a finding, and the last one.

@@ -127,6 +127,33 @@ TEST_F(VerificationTest, KnowsTheSetupBesideTheProgram) {
   EXPECT_THAT(found, ElementsAre("E152@2"));
 }
 
+/// A contact leads to the line on which it ends, and to the place that describes what is hit.
+TEST_F(VerificationTest, RelatesAContactToItsEndAndToWhatIsHit) {
+  folder_.write("isocnc.json", R"({"machine": {"kinematics": {"type": "three-axis"}, "home": {"z": 300}, "tools": [
+    {"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 10, "shape": "flat"}]}})");
+  folder_.write("part.setup.json",
+                "{\"fixtures\": [\n  {\"name\": \"clamp 1\", \"box\": [[100, -20, 0], [140, 20, 30]]}]}");
+  start({{"textDocument", {{"publishDiagnostics", {{"relatedInformation", true}}}}}}, {{"verify", "onSave"}});
+  open("M06 T101001\nG00 X0 Y0 Z10\nX110\nX120\n  X200 ; out\nZ50\nM02\n");
+  EXPECT_THAT(pushed(), IsEmpty());
+  const Json found = session_.diagnostics(uri_, version_);
+  ASSERT_THAT(of_machine(found), ElementsAre("E152@2"));
+  const std::string setup = uri_.substr(0, uri_.size() - 4) + ".setup.json";
+  const auto place = [](int line, int begin, int end) {
+    return Json{{"start", {{"line", line}, {"character", begin}}}, {"end", {{"line", line}, {"character", end}}}};
+  };
+  const Json described = {{"location", {{"uri", setup}, {"range", place(1, 2, 2)}}},
+                          {"message", "clamp 1 is described here"}};
+  const auto until = [&](int line) {
+    return Json{{"location", {{"uri", uri_}, {"range", place(line, 2, 6)}}}, {"message", "it lasts until here"}};
+  };
+  EXPECT_EQ(found[0]["relatedInformation"], Json::array({until(4), described}));
+  edit(change(3, 0, 3, 0, "; a comment\n"));
+  EXPECT_EQ(session_.diagnostics(uri_, version_)[0]["relatedInformation"], Json::array({until(5), described}));
+  edit(change(5, 3, 5, 6, "201"));
+  EXPECT_EQ(session_.diagnostics(uri_, version_)[0]["relatedInformation"], Json::array({described}));
+}
+
 TEST_F(VerificationTest, FadesWhileTheTextHasChangedSince) {
   start({}, {{"verify", "onSave"}});
   open();
