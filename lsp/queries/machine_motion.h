@@ -16,8 +16,8 @@ namespace isocnc::queries {
 std::optional<kinematics::Move> machine_motion(const documents::Snapshot& snapshot, std::size_t line,
                                                const LineRun& run);
 
-/// The tool that is mounted in a state after so many lines, all 0 for the empty spindle; nothing if paths have different
-/// tools.
+/// The tool that is mounted in a state after so many lines, all 0 for the empty spindle; nothing if paths have
+/// different tools.
 std::optional<execution::ToolCode> mounted_tool(const documents::Snapshot& snapshot, std::size_t lines,
                                                 const execution::State& state);
 

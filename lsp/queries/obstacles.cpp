@@ -33,15 +33,28 @@ struct KnownSurroundings {
 
 }  // namespace
 
-/// The origin of the first workpiece frame that a run sets; machine frame, mm. Only a program that jumps before it has
-/// to be run.
+/// Whether a jump above a line may lead past it.
+static bool may_be_jumped_over(const Snapshot& snapshot, std::size_t line) {
+  const std::vector<documents::Landmark> jumps = snapshot.index().landmarks(LandmarkKind::Jump);
+  return std::any_of(jumps.begin(), jumps.end(), [&](const documents::Landmark& jump) {
+    if (jump.line >= line) return false;
+    const std::vector<std::size_t> targets = snapshot.index().lines_of_label(jump.number);
+    return targets.empty() || targets.back() > line;
+  });
+}
+
+/// The origin of the first workpiece frame that a run sets; machine frame, mm. Only a program that may jump over its
+/// first G92, or sets it by the path, has to be run.
 static std::optional<Vec3> first_origin(const Snapshot& snapshot) {
   const std::vector<documents::Landmark> frames = snapshot.index().landmarks(LandmarkKind::WorkpieceFrame);
   if (frames.empty()) return Vec3(Vec3::Zero());
-  const std::vector<documents::Landmark> jumps = snapshot.index().landmarks(LandmarkKind::Jump);
-  if (jumps.empty() || jumps.front().line > frames.front().line) {
-    if (const std::optional<LineRun> run = run_line(snapshot, frames.front().line))
-      return run->after.workpiece_unknown == 0 ? std::optional(run->after.workpiece_origin) : std::nullopt;
+  const std::size_t first = frames.front().line;
+  if (!may_be_jumped_over(snapshot, first)) {
+    const std::vector<LineRun> runs = run_line_on_all_paths(snapshot, first);
+    const auto is_same = [&](const LineRun& run) {
+      return run.after.workpiece_unknown == 0 && run.after.workpiece_origin == runs.front().after.workpiece_origin;
+    };
+    if (!runs.empty() && std::all_of(runs.begin(), runs.end(), is_same)) return runs.front().after.workpiece_origin;
   }
   return TimedProgram(snapshot, 0).workpiece_origin();
 }

@@ -76,6 +76,8 @@ TEST_F(Obstacles, StandInTheFirstWorkpieceFrame) {
   start();
   open("G92 X1000\nG92 X2000\nM06 T101001\nG92 X1000\nG00 X0 Y0 Z10\nX50\nM02\n");
   EXPECT_EQ(last_of_hover(5), "nearest: clamp 2, 40 mm");
+  open("IF V1=1 GOTO N5\nN5 G92 X1000\nG92 X2000\nM06 T101001\nG92 X1000\nG00 X0 Y0 Z10\nX50\nM02\n");
+  EXPECT_EQ(last_of_hover(6), "nearest: clamp 2, 40 mm");
   open("IF V1=1 GOTO N5\nG92 X1000\nN5 M06 T101001\nG92 X1000\nG00 X0 Y0 Z10\nX50\nM02\n");
   EXPECT_EQ(last_of_hover(5), "nearest: clamp 2, 40 mm");
 }
