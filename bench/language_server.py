@@ -9,6 +9,7 @@ import argparse
 import json
 import random
 import re
+import tempfile
 import time
 from pathlib import Path
 
@@ -22,6 +23,13 @@ EDIT_P50_MS = 1.0
 EDIT_P99_MS = 5.0
 REQUEST_P99_MS = 5.0
 BYTES_PER_LINE = 200
+VERIFIED_S = 0.3
+NEAREST_P99_MS = 50.0
+
+VERIFIED_KINDS = ["short", "fiveaxis"]
+VERIFIED_LINES = 10_000
+VERIFIED_EDITS = 9
+PAUSE_S = 1.0  # The pause in typing after which isols verifies a program.
 
 
 class Server(editor.Client):
@@ -175,6 +183,89 @@ def measure_beside_big(arguments, table):
     server.stop()
 
 
+def fixture(number, middle, size):
+    box = [[m - s / 2 for m, s in zip(middle, size)], [m + s / 2 for m, s in zip(middle, size)]]
+    return {"name": f"fixture {number}", "box": box}
+
+
+def surroundings(kind):
+    """A machine with a holder and a nose, and 24 fixtures around what the programs do: 12 cups below it, and 12 clamps
+    beside it, of which the last one is hit by what `into_a_clamp` adds."""
+    is_head = kind == "fiveaxis"
+    top, side = (-125, 520) if is_head else (-18, 330)
+    cups = [((-225 + 150 * i, -200 + 200 * j, top - 30), (120, 120, 60)) for i in range(4) for j in range(3)]
+    rows = [((at, sign * side, 0), (60, 40, 40)) for at in (-200, 0, 200) for sign in (-1, 1)]
+    columns = [((sign * side, at, 0), (40, 60, 40)) for at in (-200, 0, 200) for sign in (-1, 1)]
+    tool = {"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 5, "shape": "flat", "cutLength": 60, "body": "ER"}
+    machine = {
+        "kinematics": {"type": "head" if is_head else "three-axis"},
+        "home": {"z": 400},
+        "tools": [tool],
+        "holders": {"ER": [[40, 40, 50]]},
+        "nose": [[120, 120, 150]],
+    }
+    fixtures = [fixture(i + 1, *each) for i, each in enumerate(cups + rows + columns)]
+    return {"machine": machine, "setups": [{"paths": ["*.iso"], "frame": "machine", "fixtures": fixtures}]}, side
+
+
+def into_a_clamp(text, side):
+    before, end = text.rsplit("M05", 1)
+    return f"{before}G00 Z60 B0 C0\nX{side} Y200\nZ10\nZ60\nM05{end}"
+
+
+def verified_edit_times(server, uri, lines, count):
+    """Seconds from one changed digit to what the machine shows of the new text, without the pause in typing."""
+
+    def are_verified(message):
+        if not Server.are_diagnostics(message, uri, version):
+            return False
+        of_machine = [each for each in message["params"]["diagnostics"] if each["source"] == "isocnc verify"]
+        return bool(of_machine) and not any(1 in each.get("tags", []) for each in of_machine)
+
+    choices = random.Random(editor.SEED)
+    version = 1
+    server.wait(are_verified)
+    times = []
+    while len(times) < count:
+        number = choices.randrange(len(lines) - 10)
+        edit = replaced_digit(lines[number], choices)
+        if not edit:
+            continue
+        column, digit = edit
+        version += 1
+        place = {"start": {"line": number, "character": column}, "end": {"line": number, "character": column + 1}}
+        change = {"textDocument": {"uri": uri, "version": version}, "contentChanges": [{"range": place, "text": digit}]}
+        start = time.perf_counter()
+        server.notify("textDocument/didChange", change)
+        times.append(server.wait(are_verified)[0] - start - PAUSE_S)
+    return times
+
+
+def measure_verification(arguments, kind, table):
+    """What the machine would hit, after an edit; and hovers that say how near a motion comes to it."""
+    described, side = surroundings(kind)
+    text = into_a_clamp(editor.corpus(arguments.build, kind, VERIFIED_LINES).decode(), side)
+    lines = text.split("\n")
+    name = f"{kind}, {len(lines)} lines, 24 fixtures"
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "isocnc.json").write_text(json.dumps(described), encoding="ascii")
+        server = Server(arguments.build / "bin/isols")
+        uri = (Path(folder) / "part.iso").resolve().as_uri()
+        server.open(uri, text)
+        edits = verified_edit_times(server, uri, lines, VERIFIED_EDITS)
+        table.add(name, "edit to what the machine would hit, median", percentile(edits, 0.5) / 1000, VERIFIED_S, "s")
+        hovers = []
+        choices = random.Random(editor.SEED)
+        while len(hovers) < arguments.edits:
+            number = choices.randrange(len(lines) - 1)
+            if lines[number][:1] not in ("X", "Y", "Z"):
+                continue
+            place = {"textDocument": {"uri": uri}, "position": {"line": number, "character": 0}}
+            hovers.append(server.request("textDocument/hover", place))
+        table.add(name, "hover on a motion, p99", percentile(hovers, 0.99), NEAREST_P99_MS, "ms")
+        server.stop()
+
+
 class Table:
     def __init__(self):
         self.missed = False
@@ -189,6 +280,7 @@ class Table:
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--verified", default=",".join(VERIFIED_KINDS), help="kinds that are verified with a setup")
     parser.add_argument("--lines", type=int, default=1_000_000)
     parser.add_argument("--big", type=int, default=10_000_000, help="0 leaves the big program out")
     parser.add_argument("--edits", type=int, default=400)
@@ -197,6 +289,8 @@ def main():
     table = Table()
     for kind in filter(None, arguments.kinds.split(",")):
         measure_kind(arguments, kind, table)
+    for kind in filter(None, arguments.verified.split(",")):
+        measure_verification(arguments, kind, table)
     if arguments.big:
         measure_beside_big(arguments, table)
     return not table.missed
