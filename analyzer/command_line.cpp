@@ -161,6 +161,7 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
   // docs/messages.md, docs/other-controls.md and cmake/windows/notepad++/isocnc.xml; with --lang it, the pages of
   // docs/it/.
   program.add_flag("--config-schema", options.config_schema, {}).hidden();
+  program.add_flag("--setup-schema", options.setup_schema, {}).hidden();
   program.add_flag("--config-keys", options.config_keys, {}).hidden();
   program.add_flag("--machine-page", options.machine_page, {}).hidden();
   program.add_flag("--rules-page", options.rules_page, {}).hidden();

@@ -39,6 +39,7 @@ struct LintCommandOptions {
   bool notepad_language = false;
   bool show_config = false;
   bool config_schema = false;
+  bool setup_schema = false;
   bool config_keys = false;
   bool machine_page = false;
   configuration::ConfigurationSource source;

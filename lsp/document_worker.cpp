@@ -1,11 +1,15 @@
 #include "lsp/document_worker.h"
 
+#include <filesystem>
+#include <set>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/configuration/scenes.h"
 #include "lsp/background/work_title.h"
 #include "lsp/documents/configuration_diagnostics.h"
 #include "lsp/feature_list.h"
@@ -123,22 +127,47 @@ static std::string published(const std::string& uri, Json diagnostics) {
   return rpc::write({{"uri", uri}, {"diagnostics", std::move(diagnostics)}});
 }
 
-/// Reports the findings in the program's configuration file, once for all programs that use it.
+/// Reports the findings in the files that describe the program's machine and setup, once for all programs that use
+/// them.
 void DocumentWorker::report_configuration(const Client& client) {
-  const configuration::Configuration& found = *document_.settings().configuration;
-  if (found.file.empty() || !settings_.claim(found.file)) return;
-  const std::filesystem::path file = configuration::real_path(found.file);
-  const auto language = client.language(found.language);
+  const documents::DocumentSettings& settings = document_.settings();
+  const std::filesystem::path& found = settings.configuration->file;
+  if (!found.empty() && settings_.claim(found)) report_described(found, client);
+  if (settings.file.empty()) return;
+  const std::filesystem::path setup = configuration::setup_file(settings.file);
+  std::error_code error;
+  if (std::filesystem::exists(std::filesystem::symlink_status(setup, error)) && settings_.claim(setup))
+    report_described(setup, client);
+}
+
+/// Reports the findings in a file beside the program.
+void DocumentWorker::report_described(const std::filesystem::path& shown, const Client& client) {
+  const documents::DocumentSettings& settings = document_.settings();
+  const std::filesystem::path file = configuration::real_path(shown.parent_path()) / shown.filename();
+  const std::string uri = protocol::uri_of(file);
   notifier_.configuration(
-      protocol::uri_of(file),
-      published(protocol::uri_of(file), documents::configuration_diagnostics(file, client.encoding, language)));
+      uri, published(uri, documents::configuration_diagnostics(file, *settings.scenes, client.encoding,
+                                                               client.language(settings.configuration->language))));
+}
+
+/// A run has read the meshes around the program, and knows what is wrong with them.
+void DocumentWorker::report_meshes(const Client& client) {
+  std::set<std::string> files;
+  for (const configuration::SurroundingsMistake& each : document_.settings().scenes->all_mistakes())
+    if (each.is_of_mesh) files.insert(each.file);
+  for (const std::string& file : files) report_described(file, client);
 }
 
 void DocumentWorker::report_as_configuration(const Client& client) {
-  const std::filesystem::path folder = configuration::real_path(protocol::path_of(uri_)->parent_path());
+  last_client_ = client;
   notifier_.notify("textDocument/publishDiagnostics",
-                   published(uri_, documents::configuration_diagnostics(document_.document().text(), folder,
-                                                                        client.encoding, client.language({}))));
+                   published(uri_, documents::configuration_diagnostics(
+                                       document_.document().text(), *protocol::path_of(uri_),
+                                       *document_.settings().scenes, client.encoding, client.language({}))));
+}
+
+void DocumentWorker::report_again() {
+  if (is_configuration_ && last_client_) report_as_configuration(*last_client_);
 }
 
 void DocumentWorker::answer(const features::Method& method, const Json& params, const Client& client,
@@ -170,6 +199,7 @@ void DocumentWorker::take_verification(const VerificationResult& result, const C
   });
   document_.take_run(std::move(*result.outcome));
   report_verification(client);
+  report_meshes(client);
 }
 
 void DocumentWorker::report_verification(const Client& client) {

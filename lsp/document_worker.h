@@ -19,7 +19,8 @@ namespace isocnc::lsp {
 /// What an open document reports to the client by itself.
 struct DocumentNotifier {
   features::Notify notify;
-  rpc::OnLoop<std::string /*uri*/, std::string /*params*/> configuration;  ///< The diagnostics of an isocnc.json.
+  rpc::OnLoop<std::string /*uri*/, std::string /*params*/>
+      configuration;  ///< The diagnostics of an isocnc.json or setup.
   background::ReportProgress progress;
   rpc::OnLoop<std::string /*method*/> request;  ///< Sends a request without parameters.
 };
@@ -49,6 +50,8 @@ class DocumentWorker {
   void order_verification(const background::VerificationOrder& order,
                           const rpc::OnWorker<std::optional<background::VerificationSubject>>& start);
   void take_verification(const background::VerificationResult& result, const protocol::Client& client);
+  /// More is known of what a configuration describes.
+  void report_again();
 
  private:
   void finish_edit(const std::function<void()>& edit, const protocol::Client& client);
@@ -58,17 +61,20 @@ class DocumentWorker {
   void end_progress();
   bool shows_progress_to(const protocol::Client& client) const;
   void report_configuration(const protocol::Client& client);
+  void report_described(const std::filesystem::path& shown, const protocol::Client& client);
+  void report_meshes(const protocol::Client& client);
   void report_as_configuration(const protocol::Client& client);
   void log(const std::exception& error);
 
   const std::string uri_;
-  const bool is_configuration_;  // Whether this is an isocnc.json, which is never read as a program.
+  const bool is_configuration_;  // Whether this is an isocnc.json or a setup, never read as a program.
   documents::SettingsStore& settings_;
   const DocumentNotifier notifier_;
   const std::shared_ptr<DocumentSignals> signals_;
   bool is_long_ = false;  // Whether the text was long when opened.
   bool is_progress_shown_ = false;
   documents::AnalyzedDocument document_;
+  std::optional<protocol::Client> last_client_;  // Of a configuration: the one that was last reported to.
   background::BackgroundRequests background_requests_;
 };
 

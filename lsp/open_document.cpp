@@ -58,6 +58,10 @@ void OpenDocument::save(protocol::ClientPointer client) {
   if (verification_) verification_->save(std::move(client));
 }
 
+void OpenDocument::report_again() {
+  worker_.post([](DocumentWorker& worker) { worker.report_again(); });
+}
+
 void OpenDocument::stop_verification() {
   if (verification_) verification_->close();
 }

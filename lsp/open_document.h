@@ -39,6 +39,8 @@ class OpenDocument {
   void open(rpc::CallPointer call, protocol::ClientPointer client);
   void edit(rpc::CallPointer call, protocol::ClientPointer client);
   void save(protocol::ClientPointer client);
+  /// Reports the diagnostics of a configuration again: more is known of what it describes.
+  void report_again();
   /// Ends work on the document: the editor has closed it.
   void close();
   /// The client's settings or the configuration files have changed.

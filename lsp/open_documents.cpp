@@ -130,9 +130,9 @@ void OpenDocuments::stop_verifications() {
   for (const auto& [uri, document] : documents_) document->stop_verification();
 }
 
-/// For a configuration that the editor has open, its OpenDocument reports the diagnostics.
+/// Of a configuration that the editor has open, the text in the editor counts.
 void OpenDocuments::report_configuration(const std::string& uri, const std::string& params) {
-  if (documents_.contains(uri)) return;
+  if (const auto open = documents_.find(uri); open != documents_.end()) return open->second->report_again();
   reported_configurations_.insert(uri);
   outbox_.notify("textDocument/publishDiagnostics", params);
 }

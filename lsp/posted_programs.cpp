@@ -6,6 +6,7 @@
 
 #include "analyzer/input/settling.h"
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/configuration/meshes.h"
 #include "interpreter/configuration/scenes.h"
 #include "lsp/protocol/uri.h"
 
@@ -44,7 +45,8 @@ void PostedPrograms::watch(const ClosedPrograms::Folders& folders, bool watches_
       extensions.insert(settings.configuration->lint.extensions.begin(), settings.configuration->lint.extensions.end());
     }
   std::vector<std::string> patterns = {fmt::format("**/{}", configuration::kFileName),
-                                       fmt::format("**/*{}", configuration::kSetupExtension)};
+                                       fmt::format("**/*{}", configuration::kSetupExtension),
+                                       pattern_of(configuration::kMeshExtension)};
   for (const std::string& extension : extensions) patterns.push_back(pattern_of(extension));
   if (patterns == watched_) return;
   if (!watched_.empty())

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <variant>
 
@@ -17,6 +18,9 @@ namespace isocnc::configuration {
 
 /// Maximum size of an STL file, in bytes: some ten million triangles.
 inline constexpr std::size_t kLargestMesh = std::size_t{512} * 1024 * 1024;
+
+/// The usual extension of STL files.
+inline constexpr std::string_view kMeshExtension = ".stl";
 
 /// The meshes of STL files. Each file is read once, and bodies with the same file and shift share one mesh.
 class Meshes {

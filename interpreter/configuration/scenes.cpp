@@ -23,6 +23,8 @@ fs::path setup_file(const fs::path& program) {
   return program.parent_path() / name;
 }
 
+bool is_setup_file(const fs::path& file) { return file.filename().generic_string().ends_with(kSetupExtension); }
+
 std::shared_ptr<const Scene> Scenes::of(const Configuration& configuration, const fs::path& program) {
   const std::lock_guard lock(mutex_);
   std::error_code error;
@@ -109,7 +111,7 @@ Scenes::ScenePointer Scenes::make(const Configuration& configuration, const std:
       const std::string file = request.file.generic_string();
       const LineColumn place = request.mesh.place.shown;
       if (missing_meshes_.emplace(file, place.line, place.column).second)
-        mistakes_.push_back({.file = file, .place = place, .mistake = std::move(*mistake)});
+        mistakes_.push_back({.file = file, .place = place, .mistake = std::move(*mistake), .is_of_mesh = true});
       return std::shared_ptr<const solids::Mesh>();
     }
     return std::get<std::shared_ptr<const solids::Mesh>>(std::move(loaded));
@@ -117,11 +119,16 @@ Scenes::ScenePointer Scenes::make(const Configuration& configuration, const std:
   return is_whole ? scene : nullptr;
 }
 
+std::vector<SurroundingsMistake> Scenes::all_mistakes() const {
+  const std::lock_guard lock(mutex_);
+  return mistakes_;
+}
+
 std::vector<std::string> Scenes::mistakes(Language language) const {
   const std::lock_guard lock(mutex_);
   const std::string_view error = dialect::severity_name(dialect::Severity::Error, language);
   std::vector<std::string> lines;
-  for (const FileMistake& each : mistakes_)
+  for (const SurroundingsMistake& each : mistakes_)
     lines.push_back(each.is_of_whole_file
                         ? text::printable(fmt::format("{}: {}: {}", each.file, error, each.mistake.message(language)))
                         : located_message(each.file, each.place, each.mistake, language));

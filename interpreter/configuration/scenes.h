@@ -23,6 +23,17 @@ namespace isocnc::configuration {
 /// The setup of `door.iso` may be a file beside it: `door.setup.json`.
 inline constexpr std::string_view kSetupExtension = ".setup.json";
 std::filesystem::path setup_file(const std::filesystem::path& program);
+/// Whether a file has the name of such a setup.
+bool is_setup_file(const std::filesystem::path& file);
+
+/// A mistake in a file that describes surroundings, or why it or a mesh that it names cannot be read.
+struct SurroundingsMistake {
+  std::string file;  ///< As shown to users.
+  LineColumn place;
+  Mistake mistake;                ///< Its place in the text is not known.
+  bool is_of_whole_file = false;  ///< It has no place.
+  bool is_of_mesh = false;        ///< `mistake.key` names the mesh, and `mistake.names` starts with it.
+};
 
 /// The scenes of programs. The file beside a program outweighs the `setups` of its configuration. Files are read when a
 /// program first needs them, and meshes once; another object sees what has changed since. All functions may be called
@@ -40,17 +51,11 @@ class Scenes {
 
   /// Mistakes in the files read so far, one line each: `door.setup.json:3:12: error: fixtures[0].mesh: ...`.
   std::vector<std::string> mistakes(dialect::Language language) const;
+  /// The same as data.
+  std::vector<SurroundingsMistake> all_mistakes() const;
 
  private:
   using ScenePointer = std::shared_ptr<const verification::Scene>;
-
-  /// A mistake in a file, or why it cannot be read.
-  struct FileMistake {
-    std::string file;  // As shown to users.
-    LineColumn place;
-    Mistake mistake;
-    bool is_of_whole_file = false;  // It has no place.
-  };
 
   /// The scene of a program with a setup of its own.
   struct OwnScene {
@@ -66,7 +71,7 @@ class Scenes {
   const dialect::Language language_;
   mutable std::mutex mutex_;  // Of all below.
   Meshes meshes_;
-  std::vector<FileMistake> mistakes_;
+  std::vector<SurroundingsMistake> mistakes_;
   /// Where files name meshes that cannot be had, by file, line and column: one of the machine is missing from many
   /// scenes, and reported once.
   std::set<std::tuple<std::string, std::size_t, std::size_t>> missing_meshes_;

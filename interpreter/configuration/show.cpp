@@ -264,6 +264,22 @@ std::string json_schema() {
   return schema.dump(2) + "\n";
 }
 
+std::string setup_schema() {
+  const std::vector<Key>& keys = all_keys();
+  const auto setups = std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.path == "setups"; });
+  ordered_json members = members_schema(&*setups);
+  members["properties"].erase("paths");
+  members.erase("required");  // That are the paths.
+  ordered_json properties = {{"$schema", schema_of(&keys.front())}};
+  properties.update(members["properties"]);
+  members["properties"] = std::move(properties);
+  ordered_json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                         {"title", "PROGRAM.setup.json"},
+                         {"description", "What stands around one program: an entry of setups in isocnc.json."}};
+  schema.update(members);
+  return schema.dump(2) + "\n";
+}
+
 /// The default of the key.
 static std::string default_of(const Key& key) {
   if (key.path.find("[]") != std::string::npos || key.path.find('*') != std::string::npos) return "";

@@ -14,6 +14,9 @@ std::string to_json(const Configuration& configuration);
 /// The schema of isocnc.json: JSON Schema, draft 7.
 std::string json_schema();
 
+/// The schema of a setup that is a file of its own, `door.setup.json`.
+std::string setup_schema();
+
 /// All keys except those of the machine, as a Markdown table.
 std::string key_page(dialect::Language language);
 

@@ -1,8 +1,11 @@
 #include "lsp/documents/configuration_diagnostics.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/configuration/read.h"
@@ -54,8 +57,64 @@ static Json diagnostic(const protocol::ClientRange& range, const std::string& me
   return {{"range", range}, {"severity", 1}, {"source", "isolint"}, {"message", message}};
 }
 
-Json configuration_diagnostics(std::string_view text, const fs::path& folder, protocol::Encoding encoding,
-                               Language language) {
+namespace {
+
+/// What the text of a file says.
+struct DescribedFile {
+  std::vector<Mistake> mistakes;
+  std::vector<configuration::MeshFile> meshes;
+
+  void add(const std::optional<configuration::MeshFile>& mesh) {
+    if (mesh) meshes.push_back(*mesh);
+  }
+  void add(const configuration::DescribedSetup& setup) {
+    if (setup.stock) add(setup.stock->shape.mesh);
+    for (const configuration::DescribedBody& fixture : setup.fixtures) add(fixture.shape.mesh);
+    if (setup.target) add(setup.target->mesh);
+  }
+};
+
+}  // namespace
+
+static DescribedFile described_in(std::string_view text, const fs::path& file) {
+  DescribedFile described;
+  if (configuration::is_setup_file(file)) {
+    configuration::ReadSetup read = configuration::read_setup(text);
+    described.mistakes = std::move(read.mistakes);
+    described.add(read.setup);
+    return described;
+  }
+  configuration::ReadConfiguration read =
+      configuration::read_configuration(text, configuration::real_path(file.parent_path()));
+  described.mistakes = std::move(read.mistakes);
+  for (const configuration::DescribedBody& body : read.configuration.machine.bodies) described.add(body.shape.mesh);
+  for (const configuration::DescribedSetup& setup : read.configuration.setups) described.add(setup);
+  return described;
+}
+
+/// The offset of a place in the text in which it was found.
+static std::size_t offset_of(std::string_view text, const configuration::DescriptionPlace& place) {
+  const char* const end = text.data() + text.size();
+  const char* begin = text.data();
+  for (std::size_t line = 1; line < place.shown.line; ++line)
+    begin = text::skip_line_end(text::find_line_end(begin, end), end);
+  return static_cast<std::size_t>(begin - text.data()) + place.byte;
+}
+
+/// What is wrong with the mesh as far as it is known.
+static const Mistake* mistake_of(const configuration::MeshFile& mesh, const fs::path& file,
+                                 const std::vector<configuration::SurroundingsMistake>& known) {
+  for (const configuration::SurroundingsMistake& each : known) {
+    if (!each.is_of_mesh || each.mistake.key != mesh.key || each.mistake.names.empty()) continue;
+    if (each.mistake.names.front().en == configuration::shortened(mesh.name) &&
+        configuration::real_path(each.file) == file)
+      return &each.mistake;
+  }
+  return nullptr;
+}
+
+Json configuration_diagnostics(std::string_view text, const fs::path& file, const configuration::Scenes& scenes,
+                               protocol::Encoding encoding, Language language) {
   Json all = Json::array();
   if (text.starts_with(system::kByteOrderMark)) {
     all.push_back(diagnostic({}, Mistake{.text = configuration::mistakes::kByteOrderMark}.message(language)));
@@ -65,12 +124,22 @@ Json configuration_diagnostics(std::string_view text, const fs::path& folder, pr
     all.push_back(diagnostic({}, Mistake{.text = configuration::mistakes::kTooLarge}.message(language)));
     return all;
   }
-  for (const Mistake& mistake : configuration::read_configuration(text, folder).mistakes)
-    all.push_back(diagnostic(range_of(text, mistake.at, encoding), text::printable(mistake.message(language))));
+  const auto add = [&](std::size_t at, const Mistake& mistake) {
+    all.push_back(diagnostic(range_of(text, at, encoding), text::printable(mistake.message(language))));
+  };
+  const DescribedFile described = described_in(text, file);
+  for (const Mistake& mistake : described.mistakes) add(mistake.at, mistake);
+  if (!described.mistakes.empty()) return all;
+  const std::vector<configuration::SurroundingsMistake> known = scenes.all_mistakes();
+  if (known.empty()) return all;
+  const fs::path real = configuration::real_path(file);
+  for (const configuration::MeshFile& mesh : described.meshes)
+    if (const Mistake* const mistake = mistake_of(mesh, real, known)) add(offset_of(text, mesh.place), *mistake);
   return all;
 }
 
-Json configuration_diagnostics(const fs::path& file, protocol::Encoding encoding, Language language) {
+Json configuration_diagnostics(const fs::path& file, const configuration::Scenes& scenes, protocol::Encoding encoding,
+                               Language language) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   const auto problem = [](const std::string& message) { return Json::array({diagnostic({}, message)}); };
@@ -81,7 +150,7 @@ Json configuration_diagnostics(const fs::path& file, protocol::Encoding encoding
   const auto& source = std::get<SourceFile>(opened);
   std::string text(source.has_byte_order_mark() ? system::kByteOrderMark : std::string_view());
   text += source.text();
-  return configuration_diagnostics(text, configuration::real_path(file.parent_path()), encoding, language);
+  return configuration_diagnostics(text, file, scenes, encoding, language);
 }
 
 }  // namespace isocnc::documents

@@ -6,6 +6,7 @@
 
 #include "analyzer/formats/rendering.h"
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/configuration/meshes.h"
 #include "interpreter/configuration/scenes.h"
 #include "interpreter/dialect/any_case.h"
 
@@ -45,12 +46,12 @@ std::optional<std::filesystem::path> path_of(std::string_view uri) {
 
 bool names_configuration(std::string_view uri) {
   const auto path = path_of(uri);
-  return path && path->filename() == configuration::kFileName;
+  return path && (path->filename() == configuration::kFileName || configuration::is_setup_file(*path));
 }
 
-bool names_setup(std::string_view uri) {
+bool names_mesh(std::string_view uri) {
   const auto path = path_of(uri);
-  return path && path->filename().generic_string().ends_with(configuration::kSetupExtension);
+  return path && dialect::ends_with(path->filename().generic_string(), configuration::kMeshExtension);
 }
 
 std::string uri_of(const std::filesystem::path& path) { return formats::uri_of(path.generic_string()); }

@@ -55,10 +55,10 @@ std::string output_of(const std::string& command) {
 }
 
 /// What a validator of JSON Schema has to say; it needs python3-jsonschema.
-std::string validate(const json& documents) {
+std::string validate(const json& documents, const std::string& schema = json_schema()) {
   std::string name = std::filesystem::temp_directory_path() / "isocnc-schema-XXXXXX";
   ::close(::mkstemp(name.data()));
-  std::ofstream(name) << json{{"schema", json::parse(json_schema())}, {"documents", documents}};
+  std::ofstream(name) << json{{"schema", json::parse(schema)}, {"documents", documents}};
   std::string said =
       output_of(fmt::format("python3 '{}' '{}' 2>&1", (kRoot / "tests/support/validate.py").string(), name));
   std::filesystem::remove(name);
@@ -79,6 +79,33 @@ TEST(Schema, AgreesWithTheReader) {
   for (const WrongText& wrong : kWrongTexts)
     if (wrong.schema_rejects) add(wrong.text, false);
   EXPECT_EQ(validate(documents), fmt::format("{} documents\n", documents.size()));
+}
+
+/// A setup that is a file of its own is an entry of `setups`, without `paths`.
+TEST(Schema, OfSetupsAgreesWithTheReader) {
+  json setups = parsed(complete_example())["setups"];
+  ASSERT_FALSE(setups.empty());
+  json documents = json::array();
+  const auto add = [&](const json& setup) {
+    documents.push_back({{"document", setup}, {"valid", read_setup(setup.dump()).mistakes.empty()}});
+  };
+  for (json setup : setups) {
+    add(setup);
+    setup.erase("paths");
+    setup["$schema"] = "isocnc-setup.schema.json";
+    add(setup);
+    EXPECT_EQ(documents.back()["valid"], true) << setup;
+  }
+  for (const std::string_view text :
+       {R"({})", R"([])", R"({"clearance": -1})", R"({"clearanc": 1})", R"({"target": {}})",
+        R"({"spoilboard": {"top": 1}})", R"({"fixtures": [{}]})", R"({"frame": "part"})", R"({"setups": []})"})
+    add(parsed(text));
+  EXPECT_EQ(validate(documents, setup_schema()), fmt::format("{} documents\n", documents.size()));
+}
+
+TEST(Schema, OfSetupsIsShipped) {
+  const bool same = read_file(kRoot / "docs/isocnc-setup.schema.json") == setup_schema();
+  EXPECT_TRUE(same) << "isolint --setup-schema > docs/isocnc-setup.schema.json";
 }
 
 TEST(Schema, IsShipped) {

@@ -102,6 +102,26 @@ TEST_F(ConfigurationFile, ThatIsNoTextIsReported) {
   EXPECT_THAT(reported_for("isocnc.json"), ElementsAre(HasSubstr("binary")));
 }
 
+TEST_F(ConfigurationFile, SetupsOfProgramsAreMarkedWhileTheyAreTyped) {
+  start();
+  session_.open(uri("a.setup.json"), "// of a CAM system\n{\"clearanc\": 3, \"spoilboard\": {\"top\": \"low\"}}", 1);
+  EXPECT_THAT(reported_for("a.setup.json"),
+              ElementsAre("1:1-11 clearanc: unknown key; did you mean clearance?",
+                          "1:38-43 spoilboard.top: this is text, and a number is needed"));
+  session_.edit(uri("a.setup.json"), 2, {{{"text", "{\"clearance\": 3}"}}});
+  EXPECT_THAT(reported_for("a.setup.json"), testing::IsEmpty());
+}
+
+TEST_F(ConfigurationFile, SetupsAreReportedWithTheirProgramsUntilTheyAreMended) {
+  write("a.setup.json", R"({"clearance": -1})");
+  start();
+  session_.open(uri("a.iso"), "M02\n");
+  EXPECT_THAT(reported_for("a.setup.json"), ElementsAre(HasSubstr("0:14-16 clearance: -1 is too small")));
+  write("a.setup.json", R"({"clearance": 1})");
+  session_.notify("workspace/didChangeWatchedFiles", {{"changes", {{{"uri", uri("a.setup.json")}, {"type", 2}}}}});
+  EXPECT_THAT(reported_for("a.setup.json"), testing::IsEmpty());
+}
+
 constexpr const char* kMachine = R"({"machine": {
   "tools": [{"head": 1, "holder": 1, "tool": 1, "name": "ball nose", "length": 80, "radius": 6},
             {"head": 1, "holder": 1, "tool": 2}],

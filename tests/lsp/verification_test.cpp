@@ -127,6 +127,40 @@ TEST_F(VerificationTest, KnowsTheSetupBesideTheProgram) {
   EXPECT_THAT(found, ElementsAre("E152@2"));
 }
 
+/// What is wrong with a mesh is known once a run has read it. It is reported in the file that names it, open or not.
+TEST_F(VerificationTest, ReportsMeshesThatCannotBeHad) {
+  folder_.write("isocnc.json", R"({"setups": [{"paths": ["other.iso"]}]})");
+  folder_.write("part.setup.json", R"({"clearance": 3, "target": {"mesh": "door.stl"}})");
+  const std::string setup = uri_.substr(0, uri_.size() - 4) + ".setup.json";
+  const auto mistakes = [&] {
+    const Json published = session_.wait_for([&](const Json& message) {
+      return message.value("method", "") == "textDocument/publishDiagnostics" && message["params"]["uri"] == setup;
+    });
+    return published["params"]["diagnostics"];
+  };
+  start({}, {{"verify", "onSave"}});
+  open("M06 T101001\nG00 X5\nM02\n");
+  EXPECT_THAT(mistakes(), IsEmpty());
+  const Json found = mistakes();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0]["message"].get<std::string>(), HasSubstr("target.mesh: door.stl: cannot read"));
+  EXPECT_EQ(found[0]["range"]["start"], (Json{{"line", 0}, {"character", 36}}));
+  // Open, it is marked where it stands in the editor.
+  session_.open(setup, "\n{\"target\": {\"mesh\": \"door.stl\"}}", 1);
+  EXPECT_EQ(mistakes()[0]["range"]["start"], (Json{{"line", 1}, {"character", 20}}));
+  session_.edit(setup, 2, {change(1, 21, 1, 25, "gate")});
+  EXPECT_THAT(mistakes(), IsEmpty());
+  // The mesh arrives.
+  session_.edit(setup, 3, {change(1, 21, 1, 25, "door")});
+  EXPECT_EQ(mistakes().size(), 1u);
+  folder_.write("door.stl",
+                "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+                "endsolid a\n");
+  const std::string mesh = uri_.substr(0, uri_.rfind('/')) + "/door.STL";
+  session_.notify("workspace/didChangeWatchedFiles", {{"changes", Json::array({{{"uri", mesh}, {"type", 1}}})}});
+  EXPECT_THAT(mistakes(), IsEmpty());
+}
+
 /// A contact leads to the line on which it ends, and to the place that describes what is hit.
 TEST_F(VerificationTest, RelatesAContactToItsEndAndToWhatIsHit) {
   folder_.write("isocnc.json", R"({"machine": {"kinematics": {"type": "three-axis"}, "home": {"z": 300}, "tools": [

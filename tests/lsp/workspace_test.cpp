@@ -188,8 +188,10 @@ TEST_F(Workspace, AsksTheEditorToWatchTheConfigurationFiles) {
   const Json registrations = session_.wait_for("client/registerCapability")["params"]["registrations"];
   ASSERT_EQ(registrations.size(), 1u);
   EXPECT_EQ(registrations[0]["method"], "workspace/didChangeWatchedFiles");
-  EXPECT_EQ(registrations[0]["registerOptions"]["watchers"],
-            Json::parse(R"([{"globPattern": "**/isocnc.json"}, {"globPattern": "**/*.setup.json"}])"));
+  EXPECT_EQ(
+      registrations[0]["registerOptions"]["watchers"],
+      Json::parse(
+          R"([{"globPattern": "**/isocnc.json"}, {"globPattern": "**/*.setup.json"}, {"globPattern": "**/*.[sS][tT][lL]"}])"));
 }
 
 const Json kRefreshed = {{"textDocument", {{"diagnostic", Json::object()}}},
@@ -232,18 +234,19 @@ Json patterns_in(const Json& registration) {
 TEST_F(Workspace, AsksTheEditorToWatchThePrograms) {
   start_with(kWatched);
   EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")),
-            (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[cC][nN][cC]", "**/*.[iI][sS][oO]", "**/*.[nN][cC]",
-                  "**/*.[nN][gG][cC]", "**/*.[tT][aA][pP]"}));
+            (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[sS][tT][lL]", "**/*.[cC][nN][cC]", "**/*.[iI][sS][oO]",
+                  "**/*.[nN][cC]", "**/*.[nN][gG][cC]", "**/*.[tT][aA][pP]"}));
   write("isocnc.json", R"({"lint": {"extensions": [".H", ".mpf2"]}})");
   session_.notify("workspace/didChangeWatchedFiles", {{"changes", {{{"uri", uri("isocnc.json")}, {"type", 1}}}}});
   EXPECT_EQ(session_.wait_for("client/unregisterCapability")["params"]["unregisterations"][0]["id"], "files");
   EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")),
-            (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[hH]", "**/*.[mM][pP][fF]2"}));
+            (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[sS][tT][lL]", "**/*.[hH]", "**/*.[mM][pP][fF]2"}));
 }
 
 TEST_F(Workspace, WatchesNoProgramsThatTheUserDoesNotWantChecked) {
   start_with(kWatched, {{"initializationOptions", {{"workspaceDiagnostics", false}}}});
-  EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")), (Json{"**/isocnc.json", "**/*.setup.json"}));
+  EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")),
+            (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[sS][tT][lL]"}));
 }
 
 /// A CAM system writes into an open folder, and the editor has not opened the program.

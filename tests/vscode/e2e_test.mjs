@@ -422,6 +422,14 @@ test('isocnc.json is validated and completed by its schema', async () => {
   await editor.command('File: Revert File');
 });
 
+test('the setup of a program is validated by its schema and by isols', async () => {
+  editor.add('gear.setup.json', '// as posted\n{"clearance": 3, "fixturs": []}\n');
+  await editor.open('gear.setup.json');
+  await editor.command('Problems: Focus on Problems View');
+  await eventually(problems, 'the key is not refused', (rows) => rows.filter((row) => /fixturs/.test(row)).length >= 2);
+  await editor.focus();
+});
+
 test('text of another ending is known by its first line', async () => {
   await editor.open('notes.tap');
   await page.locator('#status\\.editor\\.mode', { hasText: 'Plain Text' }).waitFor();

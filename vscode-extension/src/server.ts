@@ -72,7 +72,7 @@ export class Server implements vscode.Disposable {
     }
     this.output.info(`isols: ${isols.place}`);
     const client = isols.connect({
-      documentSelector: [{ language: 'isocnc' }, { pattern: '**/isocnc.json' }],
+      documentSelector: [{ language: 'isocnc' }, { pattern: '**/isocnc.json' }, { pattern: '**/*.setup.json' }],
       initializationOptions: serverSettings(),
       outputChannel: this.output,
       traceOutputChannel: this.trace,

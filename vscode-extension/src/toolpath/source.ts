@@ -50,7 +50,7 @@ export class ToolpathSource implements vscode.Disposable {
         if (change.affectsConfiguration('isocnc.toolpath.vgpl')) this.askAgain();
       }),
       vscode.workspace.onDidSaveTextDocument((document) => {
-        if (document.fileName.endsWith('isocnc.json')) this.askAgain();
+        if (/(isocnc|\.setup)\.json$/.test(document.fileName)) this.askAgain();
       }),
       server.onState((state) => {
         if (state === 'running' || state === 'outdated') this.askAgain();
