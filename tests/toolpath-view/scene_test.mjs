@@ -92,10 +92,10 @@ test('each kind of body is in the picture, and can be left out', async () => {
   for (const layer of ['fixtures', 'spoilboard', 'target', 'machine', 'tool', 'stock']) {
     await drawn(page);
     const before = await picture(page);
-    await page.locator(`#layer-${layer}`).setChecked(layer === 'stock');
+    await page.locator(`#layer-${layer}`).uncheck();
     await drawn(page);
     assert.notEqual(await picture(page), before, layer);
-    await page.locator(`#layer-${layer}`).setChecked(layer !== 'stock');
+    await page.locator(`#layer-${layer}`).check();
   }
   for (const [name, machine] of Object.entries(pages)) {
     await machine.keyboard.press('Shift+F');
@@ -143,6 +143,109 @@ test('contacts are listed, and a click brings the tool there and shows the line'
     const current = await entries.evaluateAll((all) => all.flatMap((each, i) => (each.getAttribute('aria-current') ? [i] : [])));
     assert.deepEqual(current, lit, `line ${line}`);
   }
+});
+
+test('the header counts contacts in the color of an error', async () => {
+  const page = pages.head;
+  const outcome = page.locator('#outcome');
+  assert.equal(await outcome.textContent(), 'ran to M02, 2 contacts');
+  assert.equal(await outcome.getAttribute('class'), 'error');
+  await page.locator('#language').click();
+  assert.equal(await outcome.textContent(), 'eseguito fino a M02, 2 contatti');
+  await page.locator('#language').click();
+});
+
+test('bodies are colored while they are hit', async () => {
+  const page = pages.head;
+  const touched = () => page.evaluate(() => [...globalThis.isocnc.view.sceneModel.touchedNow].map(([{ name }, severity]) => `${name} ${severity}`));
+  const color = (name) =>
+    page.evaluate((of) => globalThis.isocnc.view.sceneModel.parts.find(({ body }) => body.name === of).mesh.material.color.getHex(), name);
+  const isRed = (hex) => (hex >> 16) - Math.max((hex >> 8) & 0xff, hex & 0xff) > 70;
+  await seek(page, 2.9);
+  assert.deepEqual(await touched(), []);
+  const free = await color('clamp');
+  await seek(page, 3.5);
+  assert.deepEqual(await touched(), ['clamp error']);
+  assert.deepEqual([free, await color('clamp')].map(isRed), [false, true]);
+  await page.locator('#theme').click();
+  assert.equal(isRed(await color('clamp')), true);
+  await page.locator('#theme').click();
+  await seek(page, 4.6);
+  assert.deepEqual(await touched(), []);
+  assert.equal(await color('clamp'), free);
+  await seek(page, 7.6);
+  assert.deepEqual(await touched(), ['gantry warning']);
+});
+
+test('a contact out of sight is brought into view, and once more chosen from near', async () => {
+  const page = pages.head;
+  const entry = page.locator('#contact-list button').first();
+  const stage = await page.locator('#stage').boundingBox();
+  const at = () => project(page, contacts[0].point);
+  const isInside = ({ x, y }) => x > 0 && x < stage.width && y > 0 && y < stage.height;
+  const millimeters = async () => {
+    const [from, to] = [await project(page, [0, 0, 0]), await project(page, [100, 0, 0])];
+    return 100 / Math.hypot(to.x - from.x, to.y - from.y);
+  };
+  await page.getByRole('button', { name: 'Top', exact: true }).click();
+  await page.keyboard.press('Shift+F');
+  const far = await millimeters();
+  // In sight, nothing moves.
+  const before = await at();
+  await entry.click();
+  assert.deepEqual(await at(), before);
+  await entry.click();
+  assert.ok((await millimeters()) < far / 1.5, `${await millimeters()} of ${far} mm for a pixel`);
+  const middle = await at();
+  assert.ok(Math.abs(middle.y - stage.height / 2) < 2, JSON.stringify(middle));
+  // Away, and back from the other contact, as near as before.
+  await page.locator('#stage').focus();
+  for (let i = 0; i < 12; ++i) await page.keyboard.press('+');
+  await page.evaluate(() => globalThis.isocnc.view.approach([2000, 0, 0]));
+  assert.equal(isInside(await at()), false);
+  await page.keyboard.press('Home');
+  await entry.click();
+  assert.equal(isInside(await at()), true);
+  await page.getByRole('button', { name: 'Iso' }).click();
+  await page.keyboard.press('Shift+F');
+});
+
+test('a key goes from contact to contact, and back', async () => {
+  const page = pages.head;
+  const now = () => page.evaluate(() => globalThis.isocnc.player.time);
+  await page.locator('#stage').focus();
+  await page.keyboard.press('Home');
+  for (const [key, time] of [['e', 3], ['e', 7.5], ['e', 7.5], ['Shift+E', 3], ['Shift+E', 3]]) {
+    await page.keyboard.press(key);
+    assert.equal(await now(), time, key);
+  }
+  assert.equal(await currentLine(page), 4);
+  await seek(page, 5);
+  await page.keyboard.press('Shift+E');
+  assert.equal(await now(), 3);
+});
+
+test('bodies without a name are called what they are', async () => {
+  const recording = sceneRecording('head');
+  const { bodies } = recording.facts.scene;
+  for (const body of bodies) if (['board', 'part'].includes(body.name)) body.name = '';
+  recording.facts.contacts = [
+    { ...contacts[0], code: 'E155', whom: 'the finished part' },
+    { ...contacts[1], code: 'E153', whom: 'the spoilboard', time: 3.2 },
+  ];
+  const page = await open(pageWith(recording, program));
+  await seek(page, 4);
+  assert.deepEqual(
+    await page.evaluate(() => [...globalThis.isocnc.view.sceneModel.touchedNow].map(([{ role }, severity]) => `${role} ${severity}`)),
+    ['target error', 'spoilboard warning'],
+  );
+  await page.getByRole('button', { name: 'Top', exact: true }).click();
+  await page.keyboard.press('Shift+F');
+  await page.locator('#measure').click();
+  await drawn(page);
+  await page.locator('#stage').click({ position: await project(page, [-50, 240, -60]) });
+  assert.match(await page.locator('#measurement').textContent(), /1: corner of the spoilboard/);
+  await page.context().close();
 });
 
 test('marks of contacts stand at their points, and can be clicked', async () => {
@@ -214,6 +317,28 @@ test('measures by keys alone', async () => {
   assert.match(await page.locator('#measurement').textContent(), new RegExp(`distance${Math.hypot(30, 20).toFixed(3)}`));
   await page.keyboard.press('Escape');
   assert.equal(await page.locator('#measurement').isVisible(), false);
+});
+
+test('measures by taps of a finger', async () => {
+  const page = await open(files.head, { hasTouch: true, isMobile: true, viewport: { width: 390, height: 780 } });
+  await page.getByRole('button', { name: 'Top', exact: true }).tap();
+  await page.evaluate(() => globalThis.isocnc.view.fit(true));
+  await page.locator('#measure').tap();
+  const stage = await page.locator('#stage').boundingBox();
+  // Fingers hit what they point at less closely than a mouse.
+  for (const corner of [[-50, -60, -60], [420, -60, -60]]) {
+    await drawn(page);
+    const { x, y } = await project(page, corner);
+    await page.touchscreen.tap(stage.x + x + 14, stage.y + y + 12);
+  }
+  assert.match(await page.locator('#measurement').textContent(), /1: corner of board2: corner of board.*distance470\.000/);
+  await keep(page, 'scene-touch');
+  await page.locator('#measure').tap();
+  // A tap on the mark of a contact leads there.
+  const mark = await project(page, contacts[0].point);
+  await page.touchscreen.tap(stage.x + mark.x, stage.y + mark.y);
+  assert.equal(await page.evaluate(() => globalThis.isocnc.player.time), contacts[0].time);
+  await page.context().close();
 });
 
 test('hides by tool and by height', async () => {
@@ -292,10 +417,24 @@ test('speaks Italian, in the dark, and fits a narrow window', async () => {
   await narrow.keyboard.press('Enter');
   await drawn(narrow);
   await keep(narrow, 'scene-narrow');
-  for (const id of ['looks', 'measurement', 'settings', 'verification', 'scrubber', 'clock']) {
+  const isInside = async (id) => {
     const box = await narrow.locator(`#${id}`).boundingBox();
     assert.ok(box && box.x >= 0 && box.x + box.width <= 420, `${id} is out of the window`);
-  }
+    return box;
+  };
+  for (const id of ['looks', 'measurement', 'verification', 'scrubber', 'clock']) await isInside(id);
+  await narrow.keyboard.press('Escape');
+  // What is shown is chosen behind a button, and nothing else covers the middle of the picture.
+  const [looks, readout, picture] = [await isInside('looks'), await isInside('readout'), await isInside('picture')];
+  assert.ok(looks.height < 50 && readout.height < 60 && picture.height > 250, JSON.stringify([looks, readout, picture]));
+  assert.equal(await narrow.locator('#settings').isVisible(), false);
+  await narrow.locator('#display').click();
+  assert.equal(await narrow.locator('#display').getAttribute('aria-expanded'), 'true');
+  await isInside('settings');
+  await keep(narrow, 'scene-settings');
+  await narrow.locator('#layer-grid').uncheck();
+  await narrow.locator('#display').click();
+  assert.equal(await narrow.locator('#settings').isVisible(), false);
   await narrow.context().close();
   await page.context().close();
 });

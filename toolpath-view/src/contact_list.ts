@@ -57,7 +57,7 @@ export class ContactList {
     kind.setAttribute('aria-label', { error: texts.errorSeverity, warning: texts.warning, info: texts.info }[severity]);
     const button = element(
       'button',
-      { type: 'button', title: clock(contact.time) },
+      { type: 'button', title: texts.closer.replace('{}', clock(contact.time)) },
       kind,
       element('span', { className: 'code' }, contact.code),
       element('span', { className: 'message' }, contact.message),

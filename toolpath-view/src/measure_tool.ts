@@ -2,6 +2,7 @@
 import { byId, element } from './elements';
 import { coordinate } from './format';
 import { measured, type Snap } from './measuring';
+import type { SceneBody } from './scene';
 import type { Texts } from './texts';
 import type { Vector } from './toolpath';
 import type { ToolpathView } from './toolpath_view';
@@ -106,8 +107,11 @@ function nameOf({ kind, line, body }: Snap, texts: Texts): string {
     surface: texts.snapSurface,
     tip: texts.snapTip,
   };
-  return names[kind].replace('{}', body ?? String((line ?? -1) + 1));
+  return names[kind].replace('{}', body ? shownName(body, texts) : String((line ?? -1) + 1));
 }
+
+/** The spoilboard, the part and the blank need no name of their own. */
+const shownName = ({ name, role }: SceneBody, texts: Texts) => name || texts[`${role}Body`];
 
 function table(from: Vector, to: Vector, texts: Texts): HTMLElement {
   const { distance, delta, angle } = measured(from, to);

@@ -1,4 +1,5 @@
 /** Distances between two places, and the places of a path that a measurement can start from. Machine frame, mm, degrees. */
+import type { SceneBody } from './scene';
 import { Kind, type Toolpath, type Vector } from './toolpath';
 
 /** What a place is: the end of a move, the center of an arc, a corner or the center of a body's end; else anywhere on the path or on
@@ -10,8 +11,7 @@ export interface Snap {
   kind: SnapKind;
   /** Of the path; from 0. */
   line?: number;
-  /** The name of the body. */
-  body?: string;
+  body?: SceneBody;
 }
 
 export interface Measurement {

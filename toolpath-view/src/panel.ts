@@ -12,7 +12,7 @@ import type { MachinePosition } from './machine_position';
 import { MeasureTool } from './measure_tool';
 import { Player, speeds } from './player';
 import type { Snap } from './measuring';
-import { roles } from './scene';
+import { roles, severityOf, type Contact } from './scene';
 import { texts, type Language, type Texts } from './texts';
 import { Kind, type Steps, type Toolpath, type Vector } from './toolpath';
 import { layerOf, ToolpathView, type Layer, type Look } from './toolpath_view';
@@ -55,6 +55,9 @@ export class Panel {
   private readonly contacts = new ContactList();
   private readonly hiding = new Hiding();
   private readonly measuring: MeasureTool | null;
+  private isStockChosen = false;
+  /** The contact that was shown last, until another line is. */
+  private contact = -1;
 
   constructor(
     private path: Toolpath,
@@ -68,6 +71,7 @@ export class Panel {
     this.totals = totalsOf(path);
     this.player = new Player(path);
     this.view = this.makeView();
+    this.showStock();
     this.measuring = this.view && new MeasureTool(this.view, () => this.tipSnap());
     this.setUp();
     this.write();
@@ -93,8 +97,10 @@ export class Panel {
     this.path = path;
     this.totals = totalsOf(path);
     this.selected = null;
+    this.contact = -1;
     this.hiding.forgetSections();
     this.view?.take(path);
+    this.showStock();
     this.view?.keep(this.hiding.chosen);
     this.measuring?.restart();
     byId<HTMLInputElement>('scrubber').max = String(path.seconds);
@@ -159,6 +165,13 @@ export class Panel {
     }
   }
 
+  /** A blank that the setup describes is shown unless somebody hides it; a box around what is cut only if somebody asks. */
+  private showStock(): void {
+    if (this.isStockChosen || !this.view?.hasBodies('stock')) return;
+    this.shown.stock = true;
+    this.view.show('stock', true);
+  }
+
   private setUp(): void {
     const { player } = this;
     byId('help').addEventListener('click', () => byId<HTMLDialogElement>('keys').showModal());
@@ -176,7 +189,7 @@ export class Panel {
       this.select(null);
       player.seek(Number(scrubber.value));
     });
-    this.contacts.onChoose = (contact) => this.showContact(contact);
+    this.contacts.onChoose = (contact) => this.showContact(contact, contact === this.contact);
     this.hiding.onChange = (filter) => {
       this.view?.keep(filter);
       this.markLooks();
@@ -191,23 +204,40 @@ export class Panel {
     for (const name of ['previous', 'next'] as const) byId(name).append(icon(name));
   }
 
-  /** Brings the tool to where a contact begins, and shows its line. */
-  showContact(index: number): void {
+  /** Brings the tool to where a contact begins, and shows its line and its place; `closely`, from near. */
+  showContact(index: number, closely = false): void {
     const contact = this.path.facts.contacts?.[index];
     if (!contact) return;
-    const { path } = this;
-    const line = contact.line - 1;
-    const { start, end } = path.stepsOf(line);
-    let { time } = contact;
-    if (end > start) {
-      const [first, last] = [path.times[path.stepStart[start]], path.endOf(end - 1)];
-      time = Math.min(Math.max(time, first + Math.min(justAfter, (last - first) / 2)), last);
-    }
     this.player.isPlaying = false;
     this.select(null);
-    this.player.seek(time);
-    this.onPick(line);
+    this.player.seek(this.startOf(contact));
+    this.onPick(contact.line - 1);
     this.lightContacts([index]);
+    this.contact = index;
+    const place = this.view?.sceneModel?.markAt(index) ?? contact.point;
+    if (closely) this.view?.approach(place);
+    else this.view?.reveal(place);
+  }
+
+  /** When the tool is on the line of a contact's first touch. */
+  private startOf({ line, time }: Contact): number {
+    const { path } = this;
+    const { start, end } = path.stepsOf(line - 1);
+    if (end <= start) return time;
+    const [first, last] = [path.times[path.stepStart[start]], path.endOf(end - 1)];
+    return Math.min(Math.max(time, first + Math.min(justAfter, (last - first) / 2)), last);
+  }
+
+  /** To the next contact of the run, or the one before. */
+  private walkContacts(direction: 1 | -1): void {
+    const contacts = this.path.facts.contacts ?? [];
+    const starts = contacts.map((contact) => this.startOf(contact));
+    // Contacts of one moment follow each other as listed.
+    const order = contacts.map((_, i) => i).sort((one, other) => starts[one] - starts[other] || one - other);
+    const at = order.indexOf(this.contact);
+    const { time } = this.player;
+    const next = at >= 0 ? order[at + direction] : direction > 0 ? order.find((i) => starts[i] > time) : order.filter((i) => starts[i] < time).at(-1);
+    if (next !== undefined) this.showContact(next);
   }
 
   /** Lights up contacts of the line that is shown, or some of its own. */
@@ -287,10 +317,7 @@ export class Panel {
       each.textContent = texts[each.dataset.text as keyof Texts];
     byId('help').title = texts.help;
     byId('help').setAttribute('aria-label', texts.help);
-    const outcome = byId('outcome');
-    const { ending, endLine } = this.path.facts;
-    outcome.textContent = texts[ending].replace('{}', String(endLine + 1));
-    outcome.className = ending;
+    this.writeOutcome();
     this.writeTotals();
     this.writeLooks();
     this.writeModes();
@@ -304,6 +331,17 @@ export class Panel {
     this.lightContacts();
     if (!this.view) byId('stage').replaceChildren(element('p', { className: 'problem' }, texts.noWebgl));
     this.update();
+  }
+
+  /** How the run ended, and whether the machine hits something meanwhile. */
+  private writeOutcome(): void {
+    const { texts } = this;
+    const { ending, endLine, contacts = [] } = this.path.facts;
+    const count = contacts.length;
+    const counted = count === 0 ? '' : `, ${(count === 1 ? texts.oneContact : texts.countedContacts).replace('{}', String(count))}`;
+    const outcome = byId('outcome');
+    outcome.textContent = texts[ending].replace('{}', String(endLine + 1)) + counted;
+    outcome.className = contacts.some((contact) => severityOf(contact) === 'error') ? 'error' : ending;
   }
 
   private writeTotals(): void {
@@ -334,8 +372,15 @@ export class Panel {
     const hide = element('button', { type: 'button', id: 'hide', title: this.texts.hide }, icon('hide'));
     hide.addEventListener('click', () => this.toggleHiding());
     hide.setAttribute('aria-controls', 'hiding');
-    for (const each of [measure, hide]) each.setAttribute('aria-label', each.title);
-    byId('looks').replaceChildren(...buttons, fit, measure, hide);
+    // Only where the settings would cover the picture.
+    const display = element('button', { type: 'button', id: 'display', title: this.texts.settings }, icon('display'));
+    display.addEventListener('click', () => {
+      byId('settings').classList.toggle('open');
+      this.markLooks();
+    });
+    display.setAttribute('aria-controls', 'settings');
+    for (const each of [measure, hide, display]) each.setAttribute('aria-label', each.title);
+    byId('looks').replaceChildren(...buttons, fit, measure, hide, display);
     this.markLooks();
   }
 
@@ -343,6 +388,7 @@ export class Panel {
   private markLooks(): void {
     byId('measure').setAttribute('aria-pressed', String(this.measuring?.isActive ?? false));
     byId('hide').setAttribute('aria-expanded', String(!byId('hiding').hidden));
+    byId('display').setAttribute('aria-expanded', String(byId('settings').classList.contains('open')));
     byId('hide').classList.toggle('active', this.hiding.isActive);
   }
 
@@ -363,6 +409,7 @@ export class Panel {
         const input = element('input', { type: 'checkbox', id: `layer-${layer}`, checked: this.shown[layer] });
         input.addEventListener('change', () => {
           this.shown[layer] = input.checked;
+          if (layer === 'stock') this.isStockChosen = true;
           this.view?.show(layer, input.checked);
         });
         return element('label', {}, input, this.texts[text]);
@@ -378,16 +425,17 @@ export class Panel {
   private writeKeys(): void {
     const { texts } = this;
     const rows: [string[], string][] = [
-      [['Space'], texts.keyPlay],
+      [[texts.space], texts.keyPlay],
       [['←', '→'], texts.keyStep],
-      [['Home', 'End'], texts.keyEnds],
+      [['Home', texts.endKey], texts.keyEnds],
       [[',', '.'], texts.keySpeed],
       [['1', '2', '3', '4'], texts.keyLooks],
       [['F'], texts.keyFit],
       [['T', 'V', 'K', 'C'], texts.keyColors],
       [['M'], texts.keyMeasure],
-      [['N', 'Enter'], texts.keyMeasurePlaces],
+      [['N', texts.enter], texts.keyMeasurePlaces],
       [['H'], texts.keyHide],
+      ...(this.path.facts.contacts?.length ? [[['E'], texts.keyContacts] as [string[], string]] : []),
       [['←', '→', '↑', '↓', '+', '-'], texts.keyStage],
       [['↑', '↓'], texts.keyProgram],
     ];
@@ -401,7 +449,7 @@ export class Panel {
     const close = element('button', { type: 'button', autofocus: true }, texts.close);
     close.addEventListener('click', () => byId<HTMLDialogElement>('keys').close());
     byId('keys').setAttribute('aria-label', texts.help);
-    byId('keys').replaceChildren(table, element('p', {}, texts.mouse), close);
+    byId('keys').replaceChildren(table, element('p', {}, texts.mouse), element('p', {}, texts.touch), close);
   }
 
   /** What changes with the time. */
@@ -410,6 +458,7 @@ export class Panel {
     const place = path.at(this.shownTime);
     this.view?.setTime(this.shownTime);
     const line = place.step < 0 ? -1 : path.stepLine[place.step];
+    if (this.contact >= 0 && player.time !== this.startOf(path.facts.contacts![this.contact])) this.contact = -1;
     if (line !== this.line) {
       this.line = line;
       this.lightContacts();
@@ -499,6 +548,7 @@ export class Panel {
       c: () => this.setMode('time'),
       m: () => this.measuring?.toggle(),
       h: () => this.toggleHiding(),
+      e: () => this.walkContacts(shiftKey ? -1 : 1),
       '?': () => byId<HTMLDialogElement>('keys').showModal(),
     };
     return keys[key.length === 1 ? key.toLowerCase() : key];

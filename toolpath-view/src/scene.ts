@@ -101,6 +101,12 @@ export interface Contact {
 /** The severity of a contact; one that is unknown counts as an error. */
 export const severityOf = ({ severity }: Contact): Severity => (severities.includes(severity) ? severity : 'error');
 
+/** The body that a contact is with. The spoilboard and the part need no name; a contact then calls them what they are. */
+export function bodyOf({ code, whom }: Contact, { bodies }: Scene): SceneBody | undefined {
+  const unnamed: Role = code === 'E155' ? 'target' : 'spoilboard';
+  return bodies.find(({ name }) => name !== '' && name === whom) ?? bodies.find(({ name, role }) => name === '' && role === unnamed);
+}
+
 /** The code of a tool, with which its shown name starts; null is no tool. */
 export const codeOf = (shownName: string | null) => shownName?.split(' ', 1)[0] ?? null;
 

@@ -4,7 +4,7 @@ import * as THREE from 'three';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 import { number, palettes, type Color, type Theme } from './colors';
 import { jointsOf, poseBesideWorkpiece, spindleLink, workpieceLink } from './link_pose';
-import { links, severities, severityOf, trianglesOf, type Contact, type CylinderShape, type Link, type Outline, type Role, type Scene, type SceneBody, type Severity } from './scene';
+import { bodyOf, links, severities, severityOf, trianglesOf, type Contact, type CylinderShape, type Link, type Outline, type Role, type Scene, type SceneBody, type Severity } from './scene';
 import type { Vector } from './toolpath';
 
 /** How much of a body hides what is behind it: a part is looked into, and a machine looked through. */
@@ -45,6 +45,10 @@ export class SceneModel {
   private readonly markMaterials: Record<Severity, THREE.SpriteMaterial>;
   private readonly lit = new Set<number>();
   private mounted: string | null = null;
+  private theme: Theme = 'light';
+  /** Of each contact. */
+  private readonly touchedBodies: (SceneBody | undefined)[];
+  private touched: ReadonlyMap<SceneBody, Severity> = new Map();
 
   constructor(
     readonly scene: Scene,
@@ -69,7 +73,8 @@ export class SceneModel {
     this.markMaterials = Object.fromEntries(
       severities.map((severity) => [severity, new THREE.SpriteMaterial({ map: markTexture(severity), transparent: true, depthTest: false })]),
     ) as Record<Severity, THREE.SpriteMaterial>;
-    this.marks = contacts.map((contact) => this.mark(contact));
+    this.touchedBodies = contacts.map((contact) => bodyOf(contact, scene));
+    this.marks = contacts.map((contact, i) => this.mark(contact, this.touchedBodies[i]));
   }
 
   /** Whether a model of this scene and these contacts is this one. */
@@ -88,14 +93,37 @@ export class SceneModel {
   }
 
   setTheme(theme: Theme): void {
-    const { bodies, bodyEdge, cutter, holder, contacts } = palettes[theme];
-    for (const { body, mesh, edges } of this.parts) {
-      mesh.material.color.setHex(number(bodies[body.role]));
-      edges?.material.color.setHex(number(bodyEdge));
-    }
+    this.theme = theme;
+    const { bodyEdge, cutter, holder, contacts } = palettes[theme];
+    for (const { edges } of this.parts) edges?.material.color.setHex(number(bodyEdge));
+    this.paintBodies();
     for (const part of toolParts) this.toolMaterials[part].color.setHex(number(part === 'cutter' ? cutter : holder));
     this.toolMaterials.shank.color.setHex(number(mixed(cutter, holder)));
     for (const severity of severities) this.markMaterials[severity].color.setHex(number(contacts[severity]));
+  }
+
+  /** Shows which bodies are hit at a time. */
+  touchAt(time: number): void {
+    const touched = new Map<SceneBody, Severity>();
+    this.contacts.forEach((contact, i) => {
+      const body = this.touchedBodies[i];
+      if (!body || time < contact.time || time > contact.endTime) return;
+      const [severity, known] = [severityOf(contact), touched.get(body)];
+      if (!known || severities.indexOf(severity) < severities.indexOf(known)) touched.set(body, severity);
+    });
+    if (touched.size === this.touched.size && [...touched].every(([body, severity]) => this.touched.get(body) === severity)) return;
+    this.touched = touched;
+    this.paintBodies();
+  }
+
+  /** The bodies that are hit now, by their severities. */
+  get touchedNow(): ReadonlyMap<SceneBody, Severity> {
+    return this.touched;
+  }
+
+  /** The lower end of what the setup puts into the machine, in the frame of the path; infinite where it puts nothing there. */
+  floor(): number {
+    return Math.min(Infinity, ...this.parts.filter(({ body }) => body.role !== 'machine').map((part) => around(part).min.z));
   }
 
   /** Which roles are seen, and whether the tool with the spindle nose is. */
@@ -218,6 +246,15 @@ export class SceneModel {
     }
   }
 
+  /** Bodies that are hit are fainter than the marks on them. */
+  private paintBodies(): void {
+    const { background, bodies, contacts } = palettes[this.theme];
+    for (const { body, mesh } of this.parts) {
+      const severity = this.touched.get(body);
+      mesh.material.color.setHex(number(severity ? mixed(contacts[severity], background) : bodies[body.role]));
+    }
+  }
+
   private inPath(at: THREE.Vector3, carrier: THREE.Object3D): THREE.Vector3 {
     return at.applyMatrix4(carrier.matrix);
   }
@@ -263,12 +300,11 @@ export class SceneModel {
   }
 
   /** A contact's point moves with the body that is hit. */
-  private mark(contact: Contact): THREE.Sprite {
+  private mark(contact: Contact, body: SceneBody | undefined): THREE.Sprite {
     const sprite = new THREE.Sprite(this.markMaterials[severityOf(contact)]);
     sprite.position.set(...contact.point);
     sprite.renderOrder = 6;
-    const whom = this.scene.bodies.find(({ name }) => name === contact.whom);
-    this.carriers.get(this.linkOf(whom?.on ?? 'workpiece'))!.add(sprite);
+    this.carriers.get(this.linkOf(body?.on ?? 'workpiece'))!.add(sprite);
     return sprite;
   }
 }

@@ -3,6 +3,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { number, palettes, stepColors, type Color, type Mode, type Theme } from './colors';
+import { listenForClicks, type Click } from './clicks';
 import { hiddenSteps, noFilter, type Filter } from './filter';
 import { frames, grid, HeadModel, stock, ToolModel, travel, type Box } from './furniture';
 import { MeasureModel } from './measure_model';
@@ -30,6 +31,8 @@ const looks: Record<Look, Vector> = { iso: [-1, -1, 0.816], top: [0, -1e-5, 1], 
 const near = 9; // Pixels within which a click hits a line.
 const nearSnap = 12; // Pixels within which a measurement finds the end of a move or the corner of a body.
 const frameSize = 44; // Pixels.
+const edge = 24; // Pixels: nearer to the border of the picture, what is marked is out of sight.
+const nearView = 260; // Millimeters that a near view is high.
 const nothing: Steps = { start: -1, end: -1 };
 
 export interface Hit {
@@ -81,6 +84,8 @@ export class ToolpathView {
   private time = 0;
   /** How far bodies reach beyond the path, mm. */
   private extent = 0;
+  /** The lower end of what the setup puts into the machine, on which the grid lies; mm. */
+  private floor = Infinity;
   /** Where the pointer was last, while somebody measures. */
   private hovered: { x: number; y: number } | null = null;
   /** Pixels at the right that something else covers. */
@@ -122,7 +127,7 @@ export class ToolpathView {
     sun.position.set(-0.6, -1, 1.4);
     this.scene.add(this.world, this.lines.mesh, sky, sun);
     this.setTheme(theme);
-    listenForClicks(canvas, (x, y) => this.onClick(x, y));
+    listenForClicks(canvas, (click) => this.onClick(click));
     canvas.addEventListener('pointermove', (event) => {
       if (!this.isMeasuring || event.buttons !== 0) return;
       const box = canvas.getBoundingClientRect();
@@ -265,6 +270,7 @@ export class ToolpathView {
     this.tool.dress(tool, this.theme, this.size);
     this.isToolKnown = this.surroundings?.mount(codeOf(tool.name), tool.length) ?? false;
     this.toolLength = tool.length ?? 0;
+    this.surroundings?.touchAt(time);
     this.pose(place.tip, place.b, place.c);
     if (this.travel) this.travel.position.z = this.travel.userData.height - (tool.length ?? 0);
     this.lines.set({ reached: place.point - 1, reachedPart: place.part, aheadOpacity: this.shown.ahead ? 0.28 : 0 });
@@ -309,11 +315,21 @@ export class ToolpathView {
     // Where nothing is cut yet, there is the tool to see, and not its inside.
     const wanted = Math.max(extent(right) / free, extent(up), this.path.work ? 5 : 500);
     this.camera.zoom = this.size / (1.25 * wanted);
-    const aside = ((this.covered / 2) * this.size) / this.camera.zoom / Math.max(1, clientHeight);
-    for (const each of [this.controls.target, this.camera.position]) each.addScaledVector(right, aside);
-    this.camera.updateProjectionMatrix();
-    this.controls.update();
-    this.invalidate();
+    this.aimAt(middle);
+  }
+
+  /** Brings a place of the machine into the middle, where it is out of sight. */
+  reveal(place: Vector): void {
+    const { x, y } = this.project(place);
+    const { clientWidth: width, clientHeight: height } = this.container;
+    const isSeen = x >= edge && x <= width - this.covered - edge && y >= edge && y <= height - edge;
+    if (!isSeen) this.aimAt(new THREE.Vector3(...place).sub(this.center));
+  }
+
+  /** Brings a place of the machine into the middle, from as near as shows what is around it. */
+  approach(place: Vector): void {
+    this.camera.zoom = Math.max(this.camera.zoom, this.size / nearView);
+    this.aimAt(new THREE.Vector3(...place).sub(this.center));
   }
 
   /** From now on, what is fitted into view leaves so many pixels free at the right. */
@@ -341,12 +357,13 @@ export class ToolpathView {
 
   /** Where a place of the machine is on the canvas, in pixels of the page. */
   project(tip: Vector): { x: number; y: number } {
+    this.camera.updateMatrixWorld();
     const at = new THREE.Vector3(...tip).sub(this.center).project(this.camera);
     return { x: ((at.x + 1) / 2) * this.container.clientWidth, y: ((1 - at.y) / 2) * this.container.clientHeight };
   }
 
   /** The line that a place on the canvas shows, pixels of the page; of those that are as near the foremost. */
-  pick(x: number, y: number): Hit | null {
+  pick(x: number, y: number, reach = 1): Hit | null {
     const { path, center } = this;
     if (path.stepCount === 0) return null;
     const [width, height] = [this.container.clientWidth, this.container.clientHeight];
@@ -366,7 +383,7 @@ export class ToolpathView {
         const distance = Math.hypot(x0 + part * dx, y0 + part * dy);
         const depth = z0 + part * (z1 - z0);
         const isBetter = !best || distance < best.distance - 2 || (distance < best.distance + 2 && depth < best.depth);
-        if (distance <= near && isBetter && this.isAtShownHeight(point, part)) best = { point, part, distance, depth };
+        if (distance <= near * reach && isBetter && this.isAtShownHeight(point, part)) best = { point, part, distance, depth };
       }
       [x0, y0, z0] = [x1, y1, z1];
     }
@@ -375,7 +392,7 @@ export class ToolpathView {
 
   /** The place to measure that a place on the canvas shows, pixels of the page: ends of moves, centers of arcs, corners of boxes and
    * centers of cylinders come before other places of the path and of bodies. */
-  snap(x: number, y: number): Snap | null {
+  snap(x: number, y: number, reach = 1): Snap | null {
     const { clientWidth: width, clientHeight: height } = this.container;
     this.camera.updateMatrixWorld();
     const { path, center } = this;
@@ -386,7 +403,7 @@ export class ToolpathView {
       const dx = ((m[0] * px + m[4] * py + m[8] * pz + m[12] + 1) / 2) * width - x;
       const dy = ((1 - (m[1] * px + m[5] * py + m[9] * pz + m[13])) / 2) * height - y;
       const distance = Math.hypot(dx, dy);
-      if (distance > nearSnap) return;
+      if (distance > nearSnap * reach) return;
       const depth = m[2] * px + m[6] * py + m[10] * pz + m[14];
       if (!best || distance < best.distance - 2 || (distance < best.distance + 2 && depth < best.depth)) best = { snap: snap(), distance, depth };
     };
@@ -401,7 +418,7 @@ export class ToolpathView {
     for (const snap of [...this.arcCenters(), ...this.bodyPoints()]) offer(...snap.at, () => snap);
     // The compiler does not see that `offer` has set it.
     const found = best as { snap: Snap } | null;
-    return found?.snap ?? this.snapAnywhere(x, y);
+    return found?.snap ?? this.snapAnywhere(x, y, reach);
   }
 
   /** Places to measure besides the path's ends, nearest to a place first: for those who have no pointer. */
@@ -425,6 +442,18 @@ export class ToolpathView {
     this.measure.dispose();
     this.renderer.dispose();
     this.canvas.remove();
+  }
+
+  /** Brings a place of the scene into the middle of what nothing covers. */
+  private aimAt(at: THREE.Vector3): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const right = new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
+    const aside = ((this.covered / 2) * this.size) / this.camera.zoom / Math.max(1, this.container.clientHeight);
+    this.controls.target.copy(at).addScaledVector(right, aside);
+    this.camera.position.copy(this.controls.target).add(offset.setLength(this.reach));
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.invalidate();
   }
 
   private get aspect(): number {
@@ -465,12 +494,14 @@ export class ToolpathView {
     }
     this.surroundings = scene ? new SceneModel(scene, contacts, source) : null;
     this.extent = 0;
+    this.floor = Infinity;
     if (!this.surroundings) return;
     this.world.add(this.surroundings.object);
     this.surroundings.setTheme(this.theme);
     this.surroundings.show((role) => this.shown[layerOf[role]], this.shown.tool);
     const { tip, b, c } = this.path.at(0);
     this.surroundings.place(tip, b, c, 0);
+    this.floor = this.surroundings.floor();
     // Bodies move with the axes, as far as the path is long.
     for (const { min, max } of this.surroundings.allBounds())
       for (const corner of [min, max]) this.extent = Math.max(this.extent, 2 * corner.distanceTo(this.center));
@@ -482,19 +513,19 @@ export class ToolpathView {
     return { min: box.min.toArray(), max: box.max.toArray() };
   }
 
-  private onClick(x: number, y: number): void {
+  private onClick({ x, y, reach }: Click): void {
     if (this.isMeasuring) {
-      this.onSnap(this.snap(x, y));
+      this.onSnap(this.snap(x, y, reach));
       return;
     }
-    const contact = this.contactAt(x, y);
-    if (contact === null) this.onPick(this.pick(x, y));
+    const contact = this.contactAt(x, y, reach);
+    if (contact === null) this.onPick(this.pick(x, y, reach));
     else this.onContact(contact);
   }
 
   /** The contact whose mark is nearest there. */
-  private contactAt(x: number, y: number): number | null {
-    let best = { contact: null as number | null, distance: near };
+  private contactAt(x: number, y: number, reach: number): number | null {
+    let best = { contact: null as number | null, distance: near * reach };
     this.surroundings?.contacts.forEach((_, contact) => {
       const at = this.project(this.surroundings!.markAt(contact));
       const distance = Math.hypot(at.x - x, at.y - y);
@@ -515,8 +546,8 @@ export class ToolpathView {
     });
   }
 
-  private snapAnywhere(x: number, y: number): Snap | null {
-    const hit = this.pick(x, y);
+  private snapAnywhere(x: number, y: number, reach: number): Snap | null {
+    const hit = this.pick(x, y, reach);
     const { path } = this;
     if (hit) {
       const [from, to] = [path.tipOf(hit.point - 1), path.tipOf(hit.point)];
@@ -528,11 +559,11 @@ export class ToolpathView {
     ray.setFromCamera(new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
     this.world.updateMatrixWorld();
     const found = this.surroundings?.hit(ray);
-    return found ? { at: found.at.add(this.center).toArray(), kind: 'surface', body: found.body.name } : null;
+    return found ? { at: found.at.add(this.center).toArray(), kind: 'surface', body: found.body } : null;
   }
 
   private bodyPoints(): Snap[] {
-    return (this.surroundings?.points() ?? []).map(({ at, kind, body }) => ({ at: at.toArray(), kind, body: body.name }));
+    return (this.surroundings?.points() ?? []).map(({ at, kind, body }) => ({ at: at.toArray(), kind, body }));
   }
 
   private arcCenters(): Snap[] {
@@ -555,7 +586,8 @@ export class ToolpathView {
     this.travel = travel(this.path, this.theme);
     if (this.travel) this.travel.userData.height = this.travel.position.z;
     const { min, max } = this.path.work ?? this.path;
-    this.grid = grid(new THREE.Vector3(...min), new THREE.Vector3(...max), this.theme);
+    const floor = Math.min(min[2], this.floor);
+    this.grid = grid(new THREE.Vector3(min[0], min[1], floor), new THREE.Vector3(...max), this.theme);
     this.stock = stock(this.stockKnown ?? this.path.work, this.theme);
     for (const each of [this.frames, this.travel, this.grid, this.stock]) if (each) this.world.add(each);
     if (this.stock) this.stock.visible = this.shown.stock && !this.hasBodies('stock');
@@ -638,17 +670,6 @@ export class ToolpathView {
 }
 
 const sizeOf = (path: Toolpath) => Math.max(Math.hypot(...path.max.map((value, i) => value - path.min[i])), 20);
-
-/** Clicks, not the ends of drags. */
-function listenForClicks(canvas: HTMLCanvasElement, onClick: (x: number, y: number) => void): void {
-  let start = { x: 0, y: 0 };
-  canvas.addEventListener('pointerdown', (event) => (start = { x: event.clientX, y: event.clientY }));
-  canvas.addEventListener('pointerup', (event) => {
-    if (event.button !== 0 || Math.hypot(event.clientX - start.x, event.clientY - start.y) > 4) return;
-    const box = canvas.getBoundingClientRect();
-    onClick(event.clientX - box.left, event.clientY - box.top);
-  });
-}
 
 function dot(): THREE.Texture {
   const canvas = document.createElement('canvas');
