@@ -1383,7 +1383,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .is_reported_by_runs = true,
      .section = "I.3.4",
      .arguments = {"depth", "x", "y", "z", "time"},
-     .title = {.en = "Fixture that is hit", .it = "Urto contro un attrezzaggio"},
+     .title = {.en = "Fixture that is hit", .it = "Urto contro un'attrezzatura"},
      .message = {.en = "{who} hits {whom}: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start",
                  .it = "{who} urta {whom}: entra di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
      .explanation =
@@ -1396,8 +1396,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "la testa incontra una ventosa, un morsetto o un riscontro dell'attrezzaggio. La segnalazione è dove "
                 "lo tocca per la prima volta e dà il punto più profondo, nel sistema di riferimento in presa; i "
                 "movimenti che proseguono nello stesso ostacolo ne fanno parte. Alzare l'utensile, passare di lato o "
-                "spostare l'attrezzaggio. Se alla macchina non succede nulla di simile, in isocnc.json ci sono altri "
-                "attrezzaggi, o in un altro posto, oppure lì l'utensile è più lungo o più corto."},
+                "spostare l'attrezzatura. Se alla macchina non succede nulla di simile, in isocnc.json ci sono altre "
+                "attrezzature, o in un altro posto, oppure lì l'utensile è più lungo o più corto."},
      .wrong = "M06 T101001\nG00 X100 Y20 Z50\nG01 Z20 F1000\n[!X300!]\nZ50\nM02\n",
      .right = "M06 T101001\nG00 X100 Y20 Z50\nG01 X300 F1000\nZ20\nZ50\nM02\n"},
     {.code = "E153",
@@ -1431,7 +1431,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {"depth", "x", "y", "z", "time"},
      .title = {.en = "Finished part that is cut into", .it = "Pezzo finito intaccato"},
      .message = {.en = "{who} goes into {whom}: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start",
-                 .it = "{who} intacca {whom}: di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
+                 .it = "{who} intacca {whom} di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
      .explanation =
          {.en = "The motion takes away what the finished part of the setup (target) still has. For the cutter, depths "
                 "up to the tolerance of the target are accepted and not counted; shank and holder may not touch it. "
