@@ -423,6 +423,10 @@ test('speaks Italian, in the dark, and fits a narrow window', async () => {
     return box;
   };
   for (const id of ['looks', 'measurement', 'verification', 'scrubber', 'clock']) await isInside(id);
+  // The entry of the line that is shown is in sight.
+  await narrow.locator('#program .line').nth(7).click();
+  const [entry, list] = [await narrow.locator('#contact-list button').nth(1).boundingBox(), await isInside('verification')];
+  assert.ok(entry.y >= list.y - 1 && entry.y + entry.height <= list.y + list.height + 1, JSON.stringify([entry, list]));
   await narrow.keyboard.press('Escape');
   // What is shown is chosen behind a button, and nothing else covers the middle of the picture.
   const [looks, readout, picture] = [await isInside('looks'), await isInside('readout'), await isInside('picture')];

@@ -95,10 +95,12 @@ export class ContactList {
   }
 }
 
-/** Scrolls the list alone, not the page around it. */
+/** Scrolls the list, or in a narrow window what holds it, and not the page around it. */
 function reveal(button: HTMLElement): void {
-  const list = byId('contact-list');
-  const [inner, outer] = [button.getBoundingClientRect(), list.getBoundingClientRect()];
-  if (inner.top < outer.top) list.scrollTop -= outer.top - inner.top;
-  else if (inner.bottom > outer.bottom) list.scrollTop += inner.bottom - outer.bottom;
+  for (const id of ['contact-list', 'verification']) {
+    const scroller = byId(id);
+    const [inner, outer] = [button.getBoundingClientRect(), scroller.getBoundingClientRect()];
+    if (inner.top < outer.top) scroller.scrollTop -= outer.top - inner.top;
+    else if (inner.bottom > outer.bottom) scroller.scrollTop += inner.bottom - outer.bottom;
+  }
 }

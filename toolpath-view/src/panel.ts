@@ -481,10 +481,9 @@ export class Panel {
     const place = path.at(this.shownTime);
     const axes: [string, number][] = [['X', place.tip[0]], ['Y', place.tip[1]], ['Z', place.tip[2]]];
     if (path.turned.length > 0) axes.push(['B', place.b], ['C', place.c]);
-    const rows: (Node | string)[] = axes.flatMap(([axis, value]) => [
-      element('span', { className: 'faint' }, axis),
-      ` ${coordinate(value).padStart(10)}\n`,
-    ]);
+    // A contact's message names its place in the frame in force.
+    const rows: (Node | string)[] = [element('span', { className: 'faint' }, texts.machineFrame), '\n'];
+    for (const [axis, value] of axes) rows.push(element('span', { className: 'faint' }, axis), ` ${coordinate(value).padStart(10)}\n`);
     if (place.step >= 0) {
       const kind = path.stepKind[place.step];
       const names = { [Kind.Rapid]: texts.rapid, [Kind.Feed]: texts.feedMove, [Kind.Arc]: texts.arc, [Kind.Wait]: texts.waits };
