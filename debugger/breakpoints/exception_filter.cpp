@@ -20,7 +20,7 @@ static constexpr std::array<ExceptionFilterDef, kExceptionFilterCount> kExceptio
     {.name = "contacts",
      .label = {"Contacts", "Contatti"},
      .description = {"Where the machine touches a fixture, the finished part or itself, inside the block",
-                     "Dove la macchina tocca un fissaggio, il pezzo finito o se stessa, dentro il blocco"},
+                     "Dove la macchina tocca un'attrezzatura, il pezzo finito o se stessa, dentro il blocco"},
      .takes_condition = true},
     {.name = "run",
      .label = {"Findings of the machine", "Segnalazioni della macchina"},
