@@ -1,6 +1,9 @@
 #include "debugger/debuggee/journal.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "interpreter/execution/feed.h"
 
 namespace isocnc::debuggee {
 
@@ -24,10 +27,25 @@ static auto end_before(const std::deque<Entry>& entries, std::uint64_t block) {
                           [](const Entry& entry, std::uint64_t number) { return entry.block < number; });
 }
 
-void Journal::take(std::uint64_t block, std::size_t line, const Modes& before, const Modes& after,
+Journal::Values::Values(const running::RunResult& run) {
+  const execution::ToolCode& tool = run.state.tool;
+  numbers[kFeed] = execution::feed_in_force(run.state).number;
+  numbers[kSpindleSpeed] = run.state.spindle_speed;
+  numbers[kTool] = tool.head * 100000 + tool.holder * 1000 + tool.tool;
+  for (std::size_t number = 1; number <= dialect::kRegisterCount; ++number)
+    numbers[kRegisters + number] = run.registers[number];
+}
+
+static bool is_other(double a, double b) { return !(a == b) && !(std::isnan(a) && std::isnan(b)); }
+
+void Journal::take(std::uint64_t block, std::size_t line, const Snapshot& from, const Snapshot& to,
                    std::span<const running::Event> events) {
   if (block < known_) return;
   known_ = block + 1;
+  for (std::size_t i = 0; i < values_.size(); ++i)
+    if (is_other(from.values.numbers[i], to.values.numbers[i])) note(values_[i], {block, line, to.values.numbers[i]});
+  const Modes& before = from.modes;
+  const Modes& after = to.modes;
   const unsigned first_written = after.written & ~static_cast<unsigned>(before.written);
   if (!(before == after))
     for (std::size_t i = 0; i < settings_.size(); ++i)
@@ -48,6 +66,7 @@ void Journal::take(std::uint64_t block, std::size_t line, const Modes& before, c
 void Journal::forget_from(std::uint64_t block) {
   known_ = std::min(known_, block);
   for (auto& settings : settings_) settings.erase(end_before(settings, block), settings.end());
+  for (auto& settings : values_) settings.erase(end_before(settings, block), settings.end());
   jumps_.erase(end_before(jumps_, block), jumps_.end());
   functions_.erase(end_before(functions_, block), functions_.end());
 }
@@ -56,6 +75,12 @@ std::optional<Journal::ModeSetting> Journal::setting(dialect::ModalGroup group, 
   const auto& settings = settings_[static_cast<std::size_t>(group)];
   const auto end = end_before(settings, block);
   if (end == settings.begin()) return std::nullopt;
+  return *std::prev(end);
+}
+
+std::optional<Journal::ValueSetting> Journal::value_setting(std::size_t value, std::uint64_t block) const {
+  const auto end = end_before(values_[value], block);
+  if (end == values_[value].begin()) return std::nullopt;
   return *std::prev(end);
 }
 

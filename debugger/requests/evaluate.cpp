@@ -1,5 +1,6 @@
 #include "debugger/requests/request.h"
 #include "debugger/session/console.h"
+#include "debugger/session/locations.h"
 #include "interpreter/text/characters.h"
 
 namespace isocnc::requests {
@@ -14,6 +15,7 @@ struct EvaluateArguments {
 
 struct EvaluateBody {
   std::string result;
+  std::int64_t location = 0;  ///< Reference of the place where the value was set; 0 for none.
 };
 
 void from_json(const Json& json, EvaluateArguments& arguments) {
@@ -22,7 +24,10 @@ void from_json(const Json& json, EvaluateArguments& arguments) {
   arguments.format = json.get<dap::FormatArguments>();
 }
 
-void to_json(Json& json, const EvaluateBody& body) { json = {{"result", body.result}, {"variablesReference", 0}}; }
+void to_json(Json& json, const EvaluateBody& body) {
+  json = {{"result", body.result}, {"variablesReference", 0}};
+  if (body.location > 0) json["valueLocationReference"] = body.location;
+}
 
 }  // namespace
 
@@ -38,9 +43,17 @@ static std::string hovered(const Session& session, const std::string& word, cons
 static EvaluateBody answer_evaluate(Session& session, const EvaluateArguments& arguments) {
   const expressions::ValueFormat format = format_of(session, arguments.format);
   session.debuggee();
-  if (arguments.context == "repl") return {session::enter(session, arguments.expression)};
-  if (arguments.context == "hover") return {hovered(session, arguments.expression, format)};
-  return {session::evaluate(session, arguments.expression, format)};
+  EvaluateBody body;
+  if (arguments.context == "repl") {
+    body.result = session::enter(session, arguments.expression);
+  } else if (arguments.context == "hover") {
+    body.result = hovered(session, arguments.expression, format);
+  } else {
+    body.result = session::evaluate(session, arguments.expression, format);
+  }
+  if (const expressions::Quantity* const quantity = expressions::find_quantity(arguments.expression))
+    body.location = session::location_of(session, *quantity);
+  return body;
 }
 
 static Json evaluate_capabilities() {

@@ -28,6 +28,7 @@ Json json_of(const session::Variable& variable) {
   Json json = {{"name", variable.name}, {"value", variable.value}, {"variablesReference", variable.reference}};
   if (!variable.type.empty()) json["type"] = variable.type;
   if (!variable.evaluate_name.empty()) json["evaluateName"] = variable.evaluate_name;
+  if (variable.location > 0) json["valueLocationReference"] = variable.location;
   if (variable.quantity == nullptr) json["presentationHint"] = {{"attributes", {"readOnly"}}};
   return json;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "debugger/session/locations.h"
 #include "interpreter/text/unicode.h"
 
 namespace isocnc::session {
@@ -109,6 +110,7 @@ class Listing {
                          .value = show(quantity->at(moment_)),
                          .type = in_language(quantity->meaning) + unit,
                          .evaluate_name = std::string(quantity->name),
+                         .location = location_of(session_, *quantity),
                          .quantity = quantity->set != nullptr ? quantity : nullptr});
   }
 
@@ -253,6 +255,7 @@ class Listing {
         fmt::format("X {} Y {} Z {}", show_length(point.x()), show_length(point.y()), show_length(point.z())), "mm");
     if (each.described.file.empty()) return;
     add(in_language(kDescribed), fmt::format("{}:{}", text::printable(each.described.file), each.described.line + 1));
+    variables.back().location = location_of_neighbor(place);
   }
 
  private:
@@ -313,8 +316,10 @@ class Listing {
     if (const dialect::GCode* const code = moment_.state.g(group))
       value = fmt::format("G{:02} {} ({})", code->number, in_language(code->name), origin_of(group));
     const dialect::ModalGroupNames& names = dialect::names_of(group);
-    variables.push_back(
-        {.name = in_language(names.name), .value = value, .evaluate_name = std::string(names.variable)});
+    variables.push_back({.name = in_language(names.name),
+                         .value = value,
+                         .evaluate_name = std::string(names.variable),
+                         .location = location_of(session_, *expressions::find_quantity(names.variable))});
   }
 
   const Session& session_;

@@ -15,6 +15,7 @@ struct Variable {
   std::string type;                                 ///< Its meaning and its unit.
   std::string evaluate_name;                        ///< An expression with this value; empty for none.
   std::int64_t reference = 0;                       ///< Reference of the variables that it holds; 0 for none.
+  std::int64_t location = 0;                        ///< Reference of the place where its value was set; 0 for none.
   const expressions::Quantity* quantity = nullptr;  ///< The quantity to set; null where it cannot be set.
 };
 
