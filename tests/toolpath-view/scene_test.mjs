@@ -439,6 +439,12 @@ test('speaks Italian, in the dark, and fits a narrow window', async () => {
   await narrow.locator('#layer-grid').uncheck();
   await narrow.locator('#display').click();
   assert.equal(await narrow.locator('#settings').isVisible(), false);
+  // A narrow picture that is tall has both.
+  await narrow.setViewportSize({ width: 480, height: 1300 });
+  await drawn(narrow);
+  const [above, below] = await Promise.all(['settings', 'readout'].map((id) => narrow.locator(`#${id}`).boundingBox()));
+  assert.ok(above && above.y + above.height <= below.y, JSON.stringify([above, below]));
+  assert.equal(await narrow.locator('#display').isVisible(), false);
   await narrow.context().close();
   await page.context().close();
 });
