@@ -92,6 +92,9 @@ async function keep(name) {
 
 for (const name of ['start-here.iso', 'isocnc.json']) editor.add(name, join(root, 'vscode-extension/test-drive', name));
 for (const name of ['pocket.iso', 'five-axis.iso']) editor.add(name, join(root, 'examples', name));
+mkdirSync(join(editor.workspace, 'setup'));
+for (const name of ['isocnc.json', 'block.stl', 'form.stl']) editor.add(`setup/${name}`, join(root, 'examples/setups', name));
+editor.add('setup/panel.iso', join(root, 'examples/setups/broken/panel.iso'));
 editor.add('plate.iso', plate);
 editor.add('registers.iso', registers);
 // Never opened: what is reported of it comes from tasks.
@@ -385,6 +388,27 @@ test('five axes have their tool turned, in the light theme', async () => {
   await keep('five-axis');
   await editor.command('Preferences: Toggle between Light/Dark Themes');
   await eventually(() => frame.evaluate(() => document.body.classList.contains('vscode-dark')), 'the theme stays light');
+});
+
+test('the toolpath shows the setup of a program, and leads to what the machine hits', async () => {
+  await editor.open('panel.iso');
+  const frame = await editor.toolpath();
+  await eventually(() => frame.evaluate(() => globalThis.isocnc.path.facts.name), 'another program shows', (name) => name.includes('panel'));
+  const entries = frame.locator('#contact-list button');
+  await eventually(() => entries.count(), 'the contacts are not there', (count) => count === 4);
+  assert.match(await frame.locator('#outcome').innerText(), /4 contacts/);
+  await frame.evaluate(() => globalThis.isocnc.view.fit());
+  await entries.nth(2).click();
+  await eventually(litLine, 'line 21 does not light up', (line) => line === 21);
+  assert.equal(await frame.evaluate(() => [...globalThis.isocnc.view.sceneModel.touchedNow.keys()][0]?.name), 'clamp 1');
+  // The cursor goes to the line, which the editor shows as an error after its own verification.
+  await eventually(() => editor.currentLine(), 'the cursor is elsewhere', (line) => line === 21);
+  await eventually(squiggles, 'no contact is underlined', (count) => count > 0);
+  // From the line to its contact.
+  await editor.focus();
+  await editor.goTo(36);
+  await eventually(() => entries.nth(3).getAttribute('aria-current'), 'its contact does not light up', (is) => is === 'true');
+  await keep('contacts');
 });
 
 test('a program runs on the simulator, in the terminal', async () => {
