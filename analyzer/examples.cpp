@@ -9,10 +9,10 @@
 #include "analyzer/fixes/fix_table.h"
 #include "analyzer/fixing/finding_fixes.h"
 #include "analyzer/selection/shown_report.h"
+#include "analyzer/selection/verified.h"
 #include "interpreter/solids/tool_shapes.h"
 #include "interpreter/syntax/line_finder.h"
 #include "interpreter/syntax/line_tree.h"
-#include "interpreter/verification/verified_run.h"
 
 namespace isocnc::analyzer {
 
@@ -121,13 +121,13 @@ std::vector<simulation::RunFinding> example_run(std::string_view program, Diagno
   static constexpr DiagnosticId kInScene[] = {"hits-fixture"_diag, "hits-machine"_diag, "gouges-part"_diag,
                                               "near-miss"_diag, "not-verified"_diag};
   if (std::find(std::begin(kInScene), std::end(kInScene), id) == std::end(kInScene))
-    return verification::verified_run(program, {}, machine, nullptr).outcome.findings;
+    return selection::verified_on_paths(program, {}, machine, nullptr).outcome.findings;
   machine.tool_lengths = {{{1, 1, 1}, 100}, {{1, 1, 2}, 100}};
   machine.home.tip.z() = 300;
   running::RunOptions options;
   options.setup.home = machine.home;
   const verification::Scene scene = example_scene();
-  return verification::verified_run(program, options, machine, &scene).outcome.findings;
+  return selection::verified_on_paths(program, options, machine, &scene).outcome.findings;
 }
 
 static std::optional<Example> example_of_run(Cause cause) {

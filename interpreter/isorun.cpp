@@ -10,6 +10,7 @@
 #include "analyzer/formats/renderers.h"
 #include "analyzer/selection/program_settings.h"
 #include "analyzer/selection/run_report.h"
+#include "analyzer/selection/verified.h"
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/command_line/progress.h"
@@ -330,7 +331,8 @@ ExitStatus run_program(std::string_view program, const RunCommandOptions& option
   bool has_errors = false;
   if (report.is_ready()) {
     const running::RunResult result = run_with_progress(program, run_options, outputs, report);
-    const verification::VerifiedRun verified = report.end_run(program, result);
+    verification::VerifiedRun verified = report.end_run(program, result);
+    selection::add_other_paths(verified, program);
     const CheckedRun checked{program, selection::shown_run_report(verified.outcome, program, settings.selection),
                              settings.setup, verified.certificate};
     const bool shows_with_summary = options.verify && report.has_summary();

@@ -18,7 +18,7 @@ static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
   return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
 }
 
-Report with_run(Report found, std::span<const simulation::RunFinding> run) {
+Report with_run(Report found, const simulation::RunOutcome& run) {
   std::set<std::pair<std::size_t, dialect::DiagnosticId>> known;
   std::int32_t mistakes = 0;
   for (const LocatedFinding& located : found.findings) {
@@ -26,10 +26,16 @@ Report with_run(Report found, std::span<const simulation::RunFinding> run) {
     mistakes = std::max(mistakes, located.mistake + 1);
   }
   const auto middle = static_cast<std::ptrdiff_t>(found.findings.size());
-  for (const simulation::RunFinding& each : run) {
+  const auto first_path = static_cast<std::int32_t>(found.paths.size());
+  for (const std::vector<simulation::RunDecision>& path : run.paths) {
+    std::vector<check::PathStep>& steps = found.paths.emplace_back();
+    for (const simulation::RunDecision& each : path) steps.push_back({each.line, each.taken});
+  }
+  for (const simulation::RunFinding& each : run.findings) {
     if (known.contains({each.line, each.finding.id})) continue;
     found.findings.push_back({.line = each.line,
                               .finding = each.finding,
+                              .path = each.path < 0 ? LocatedFinding::kEveryPath : first_path + each.path,
                               .mistake = each.mistake < 0 ? -1 : mistakes + each.mistake,
                               .is_of_run = true,
                               .last_line = each.last_line});
@@ -38,11 +44,22 @@ Report with_run(Report found, std::span<const simulation::RunFinding> run) {
   return found;
 }
 
+/// Whether a run has come to a finding, on its path if it has one.
+static bool has_come_to(const simulation::TakenPath& run, const LocatedFinding& located, const Report& report) {
+  if (!run.has_executed(located.line)) return false;
+  if (located.path == LocatedFinding::kEveryPath) return true;
+  const std::vector<check::PathStep>& steps = report.paths[static_cast<std::size_t>(located.path)];
+  return std::all_of(steps.begin(), steps.end(), [&](const check::PathStep& step) {
+    return run.has_made({step.line, step.taken});
+  });
+}
+
 Report without_tips(Report report, const simulation::RunOutcome& run, const Selection& selection) {
   if (!selection.shows("joint-travel"_diag)) return report;
   std::erase_if(report.findings, [&](const LocatedFinding& located) {
-    const bool is_of_every_path = located.path == LocatedFinding::kEveryPath;
-    return located.finding.id == "travel-exceeded"_diag && is_of_every_path && run.has_executed(located.line);
+    return located.finding.id == "travel-exceeded"_diag &&
+           std::any_of(run.runs.begin(), run.runs.end(),
+                       [&](const simulation::TakenPath& taken) { return has_come_to(taken, located, report); });
   });
   return report;
 }
@@ -53,17 +70,17 @@ Report shown_report_with_run(Report found, const simulation::RunOutcome& run, st
     report = without_tips(std::move(report), run, selection);
     return filter ? filter(std::move(report), of_text) : report;
   };
-  return shown_report(with_run(std::move(found), run.findings), text, selection, filter_both);
+  return shown_report(with_run(std::move(found), run), text, selection, filter_both);
 }
 
 Report shown_report_with_run(Report found, const simulation::RunOutcome& run, const syntax::Document& document,
                              Suppressions comments, const Selection& selection) {
   const auto filter = [&](Report report) { return without_tips(std::move(report), run, selection); };
-  return shown_report(with_run(std::move(found), run.findings), document, std::move(comments), selection, filter);
+  return shown_report(with_run(std::move(found), run), document, std::move(comments), selection, filter);
 }
 
 Report shown_run_report(const simulation::RunOutcome& run, std::string_view text, const Selection& selection) {
-  Report report = Suppressions(text).apply(selection.shown(with_run({}, run.findings)), selection);
+  Report report = Suppressions(text).apply(selection.shown(with_run({}, run)), selection);
   // Comments about what a check finds are no mistakes.
   std::erase_if(report.findings,
                 [](const LocatedFinding& located) { return located.finding.id == "useless-suppression"_diag; });

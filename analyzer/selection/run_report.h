@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <string_view>
 
 #include "analyzer/check/report.h"
@@ -14,11 +13,11 @@ namespace isocnc::selection {
 
 /// One list of what a check of the text and a run have found: what both have found on a line stands there once, as the
 /// text shows it.
-check::Report with_run(check::Report found, std::span<const simulation::RunFinding> run);
+check::Report with_run(check::Report found, const simulation::RunOutcome& run);
 
 /// The findings of a check and of a run that are shown, by the same steps as shown_report() of a check alone. On lines
 /// that the run has executed, the joints have been compared with their travel (E160), so that what a check concludes
-/// from the tip (W130) is left out there.
+/// from the tip (W130), on every path or on that of the run, is left out there.
 check::Report shown_report_with_run(check::Report found, const simulation::RunOutcome& run, std::string_view text,
                                     const Selection& selection, const FindingFilter& filter = {});
 /// The same for a document and the suppressions read from it.

@@ -2255,7 +2255,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Info,
      .is_reported_by_runs = true,
      .section = "I.1",
-     .arguments = {},
+     .arguments = {"paths"},
      .title = {.en = "Not verified on the machine", .it = "Non verificato sulla macchina"},
      .message = {.en = "the simulated machine stops at this error, as the control would: what it would do from here "
                        "on is not verified",
@@ -2272,16 +2272,35 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 {.cause = "undecided",
                  .message = {.en = "whether this motion hits anything could not be decided",
                              .it = "non è stato possibile decidere se questo movimento urta qualcosa"},
-                 .wrong = "M06 T101001\n[!G00 X2000000!]\nM02\n"}},
+                 .wrong = "M06 T101001\n[!G00 X2000000!]\nM02\n"},
+                {.cause = "other-paths",
+                 .message = {.en = "where this jump leads with other values of VGPL is not verified (paths that were "
+                                   "run: {paths})",
+                             .it = "dove porta questo salto con altri valori di VGPL non è verificato (percorsi "
+                                   "eseguiti: {paths})"},
+                 .wrong = "IF VGPL = 1 GOTO N90\nIF VGPL = 2 GOTO N90\nIF VGPL = 3 GOTO N90\nIF VGPL = 4 GOTO N90\n"
+                          "IF VGPL = 5 GOTO N90\nIF VGPL = 6 GOTO N90\nIF VGPL = 7 GOTO N90\n"
+                          "[!IF VGPL = 8 GOTO N90!]\nG04 P1\nN90 M02\n"},
+                {.cause = "other-registers",
+                 .message = {.en = "where this jump leads with other values of {who} is not verified: the program does "
+                                   "not set {who} before",
+                             .it = "dove porta questo salto con altri valori di {who} non è verificato: il programma "
+                                   "non assegna prima {who}"},
+                 .wrong = "[!IF V3 = 1 GOTO N90!]\nG04 P1\nN90 M02\n"}},
      .explanation =
          {.en = "The machine was asked (--verify), and could not follow or compare everything: mistakes that only a "
                 "run shows, such as a joint outside its travel or a clamp that is hit, may go unreported from this "
                 "place on. Correct the error on this line, or describe the tool in isocnc.json (length, shape and "
-                "radius), and verify again.",
+                "radius), and verify again. Of a program whose jumps compare VGPL, isolint and the editor run up to 8 "
+                "paths, each with one value of VGPL, and isorun that of --vgpl. Registers that the program does not "
+                "set keep their value from the start, which is 0: isorun --set gives them another.",
           .it = "La macchina è stata interrogata (--verify) e non ha potuto seguire o confrontare tutto: gli errori "
                 "che si vedono solo eseguendo il programma, come un asse macchina fuori corsa o un morsetto urtato, "
                 "da qui in poi possono non essere segnalati. Correggere l'errore su questa linea, oppure descrivere "
-                "l'utensile in isocnc.json (length, shape e radius), e verificare di nuovo."},
+                "l'utensile in isocnc.json (length, shape e radius), e verificare di nuovo. Di un programma i cui "
+                "salti confrontano VGPL, isolint e l'editor eseguono fino a 8 percorsi, ciascuno con un valore di "
+                "VGPL, e isorun quello di --vgpl. I registri che il programma non assegna tengono il valore iniziale, "
+                "che è 0: isorun --set ne dà un altro."},
      .wrong = "M06 T101001\nG00 X100\n[!G01!] X50\nM02\n",
      .right = "M06 T101001\nG00 X100\nG01 X50 F1000\nM02\n"},
     {.code = "W190",

@@ -135,13 +135,13 @@ bool Runner::execute_around_jump(const syntax::LineTree& tree, execution::Sink& 
   };
   if (tree.jump == nullptr || !tree.jump->has_target || tree.findings.empty()) {
     execute(tree);
-    return tree.jump != nullptr && holds(*tree.jump);
+    return tree.jump != nullptr && is_taken(*tree.jump);
   }
   const execution::JumpLine parts = execution::around_jump(tree);
   execute(parts.before);
-  const bool is_taken = holds(*tree.jump);
-  if (!is_taken && !result_.state.ended) execute(parts.after);
-  return is_taken;
+  const bool jumps = is_taken(*tree.jump);
+  if (!jumps && !result_.state.ended) execute(parts.after);
+  return jumps;
 }
 
 /// Executes the block of a line, or both where a line break is lost (D68), the second unless the first jumps or ends
@@ -149,9 +149,9 @@ bool Runner::execute_around_jump(const syntax::LineTree& tree, execution::Sink& 
 std::vector<Runner::DecidedJump> Runner::execute_blocks(const syntax::LineTree& tree, execution::Sink& sink) {
   std::vector<DecidedJump> jumps;
   const auto execute_block = [&](const syntax::LineTree& block, std::uint32_t offset) {
-    const bool is_taken = execute_around_jump(block, sink);
+    const bool jumps_on = execute_around_jump(block, sink);
     if (block.jump == nullptr || !block.jump->has_target) return;
-    jumps.push_back({*block.jump, is_taken});
+    jumps.push_back({*block.jump, jumps_on});
     jumps.back().jump.shift(offset);
   };
   if (!tree.has(syntax::LineTree::kTwoBlocks)) {
@@ -204,24 +204,28 @@ void Runner::branch(const syntax::Jump& jump, bool is_taken, const LinePlace& fr
   workbench_.events.push_back({from.line, JumpEvent{is_taken, place_.line}});
 }
 
-bool Runner::holds(const syntax::Jump& jump) const {
+bool Runner::is_taken(const syntax::Jump& jump) const {
+  if (!jump.condition_is_known()) return false;
+  const bool is_on_vgpl = jump.variable == syntax::Jump::kVgplVariable;
+  return holds(jump, is_on_vgpl ? vgpl_ : result_.registers[static_cast<std::size_t>(jump.variable)]);
+}
+
+bool holds(const syntax::Jump& jump, double value) {
   using syntax::Comparison;
   if (!jump.condition_is_known()) return false;
-  const double left =
-      jump.variable == syntax::Jump::kVgplVariable ? vgpl_ : result_.registers[static_cast<std::size_t>(jump.variable)];
   switch (jump.comparison) {
     case Comparison::Equal:
-      return left == jump.value;
+      return value == jump.value;
     case Comparison::NotEqual:
-      return left != jump.value;
+      return value != jump.value;
     case Comparison::Less:
-      return left < jump.value;
+      return value < jump.value;
     case Comparison::LessEqual:
-      return left <= jump.value;
+      return value <= jump.value;
     case Comparison::Greater:
-      return left > jump.value;
+      return value > jump.value;
     case Comparison::GreaterEqual:
-      return left >= jump.value;
+      return value >= jump.value;
     case Comparison::Invalid:
       break;
   }

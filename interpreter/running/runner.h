@@ -130,7 +130,7 @@ class Runner {
   std::vector<DecidedJump> execute_blocks(const syntax::LineTree& tree, execution::Sink& sink);
   bool execute_around_jump(const syntax::LineTree& tree, execution::Sink& sink);
   void branch(const syntax::Jump& jump, bool is_taken, const LinePlace& from);
-  bool holds(const syntax::Jump& jump) const;
+  bool is_taken(const syntax::Jump& jump) const;
   void end(Ending ending, std::size_t line);
   void fail(const syntax::Finding& error);
 
@@ -142,6 +142,9 @@ class Runner {
   RunResult result_;
   ScratchMemory workbench_;
 };
+
+/// Whether the condition of an IF holds for a value of its register or VGPL; false if it cannot be read.
+bool holds(const syntax::Jump& jump, double value);
 
 /// Runs a program as the control does, block by block, and passes its events to `on_event`. A block with an error has
 /// no effect: the control stops there. A UTF-8 byte-order mark is not part of `text`. Only `options.stop` ends a run

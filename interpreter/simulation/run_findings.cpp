@@ -30,8 +30,8 @@ void RunFindings::report(std::size_t line, dialect::DiagnosticId id,
 }
 
 void RunFindings::take(const running::Block& block) {
-  if (std::exchange(has_jumped_, false)) executed_.emplace_back(block.line, block.line);
-  executed_.back().second = block.line;
+  if (std::exchange(has_jumped_, false)) taken_.executed.emplace_back(block.line, block.line);
+  taken_.executed.back().second = block.line;
   if (block.tree.feed < 0) return;
   const syntax::Word& word = block.tree.words[static_cast<std::size_t>(block.tree.feed)];
   feed_ = {.line = block.line, .value = word.value, .is_reported = false};
@@ -49,7 +49,10 @@ void RunFindings::take(const running::Event& event) {
       report(event.line, "spindle-speed-above-machine"_diag, {limit_of(Limit::SpindleSpeed, *machine_)});
     return;
   }
-  if (const auto* const jump = std::get_if<running::JumpEvent>(&event.what)) has_jumped_ = jump->taken;
+  if (const auto* const jump = std::get_if<running::JumpEvent>(&event.what)) {
+    has_jumped_ = jump->taken;
+    taken_.decisions.push_back({event.line, jump->taken});
+  }
   const auto* const move = std::get_if<running::MoveEvent>(&event.what);
   if (!move || !checks_speeds_ || move->kind == MoveKind::Rapid || move->inverse_time) return;
   if (move->length <= geometry::kEqualCoordinate || !exceeds(Limit::Feed, move->feed, *machine_)) return;
@@ -145,22 +148,31 @@ std::vector<RunFinding> RunFindings::marked(std::string_view text) const {
   return found;
 }
 
-bool RunOutcome::has_executed(std::size_t line) const {
+bool TakenPath::has_executed(std::size_t line) const {
   const auto after = std::partition_point(executed.begin(), executed.end(),
                                           [&](const auto& stretch) { return stretch.second < line; });
   return after != executed.end() && after->first <= line;
 }
 
+bool TakenPath::has_made(const RunDecision& decision) const {
+  const auto is_above = [&](const RunDecision& each) { return each.line < decision.line; };
+  const auto place = std::partition_point(decisions.begin(), decisions.end(), is_above);
+  return place != decisions.end() && *place == decision;
+}
+
 RunOutcome RunFindings::outcome(std::string_view text, const running::RunResult& result) const {
-  RunOutcome outcome{.findings = marked(text), .executed = executed_};
+  RunOutcome outcome{.findings = marked(text), .runs = {taken_}, .paths = {}};
+  TakenPath& taken = outcome.runs.front();
   // A program without M02 has been run to its end.
   const bool has_stopped = result.ending == running::Ending::Error && result.error.id != "m02-missing"_diag;
   if (!has_stopped) return outcome;
+  if (result.error.id == "label-not-found"_diag || result.error.id == "backward-jump"_diag)
+    taken.decisions.push_back({result.line, true});
   // A block with an error has no effect.
-  if (!outcome.executed.empty() && outcome.executed.back().first == result.line) {
-    outcome.executed.pop_back();
-  } else if (!outcome.executed.empty()) {
-    outcome.executed.back().second = result.line - 1;
+  if (!taken.executed.empty() && taken.executed.back().first == result.line) {
+    taken.executed.pop_back();
+  } else if (!taken.executed.empty()) {
+    taken.executed.back().second = result.line - 1;
   }
   const RunFinding stop{.line = result.line, .finding = {.id = "not-verified"_diag, .span = result.error.span}};
   const auto is_before = [](const RunFinding& a, const RunFinding& b) {

@@ -14,23 +14,40 @@
 
 namespace isocnc::simulation {
 
+/// A decision at an IF that a run has met.
+struct RunDecision {
+  std::size_t line = 0;  ///< Of the IF, from 0.
+  bool taken = false;
+
+  friend bool operator==(const RunDecision&, const RunDecision&) = default;
+};
+
 /// A finding of a run, on its line.
 struct RunFinding {
   std::size_t line = 0;  ///< From 0.
   syntax::Finding finding;
   std::int32_t mistake = -1;             ///< Findings with the same number have the same cause (D66); -1: alone.
   std::optional<std::size_t> last_line;  ///< Where it ends, if below `line`; from 0.
+  std::int32_t path = -1;                ///< An index into RunOutcome::paths; -1: the path of the first run has it.
 
   friend bool operator==(const RunFinding&, const RunFinding&) = default;
 };
 
-/// What a run has found, and the lines that it has executed.
-struct RunOutcome {
-  std::vector<RunFinding> findings;  ///< Sorted by line and column, each once on its line.
+/// The path that a run has taken.
+struct TakenPath {
   /// The first and last line of each stretch without a jump, in ascending order; from 0.
   std::vector<std::pair<std::size_t, std::size_t>> executed;
+  std::vector<RunDecision> decisions;  ///< In ascending order of their lines.
 
   bool has_executed(std::size_t line) const;
+  bool has_made(const RunDecision& decision) const;
+};
+
+/// What a run of a program has found, or several runs with other values of VGPL.
+struct RunOutcome {
+  std::vector<RunFinding> findings;             ///< Sorted by line and column, each once on its line.
+  std::vector<TakenPath> runs;                  ///< One for each run.
+  std::vector<std::vector<RunDecision>> paths;  ///< What leads to findings that the first run does not have.
 };
 
 /// What the machine shows of a program: joints outside their travel (E160), gouges of the cutter compensation (W138 to
@@ -76,11 +93,11 @@ class RunFindings {
   bool checks_travel_;
   bool checks_speeds_;
   FeedWord feed_;
-  std::array<TravelEnd, 2 * kinematics::kAxisCount> ends_;     ///< Two per axis: its minimum and its maximum.
-  std::vector<double> farthest_;                               ///< The farthest position of each mistake.
-  std::vector<RunFinding> findings_;                           ///< Without spans, in the order of the run.
-  std::vector<std::pair<std::size_t, std::size_t>> executed_;  ///< As in the outcome.
-  bool has_jumped_ = true;                                     ///< The next block starts a stretch.
+  std::array<TravelEnd, 2 * kinematics::kAxisCount> ends_;  ///< Two per axis: its minimum and its maximum.
+  std::vector<double> farthest_;                            ///< The farthest position of each mistake.
+  std::vector<RunFinding> findings_;                        ///< Without spans, in the order of the run.
+  TakenPath taken_;
+  bool has_jumped_ = true;  ///< The next block starts a stretch.
 };
 
 /// The words of a line's motion; all words if it has none.

@@ -38,13 +38,16 @@ enum class Gap : std::uint8_t {
   ToolWithoutShape,   ///< The mounted tool has no shape: only the nose and the machine have been compared.
   ToolWithoutLength,  ///< Its length is not known, so that nothing of it is at its place.
   Undecided,          ///< A motion for which neither a contact nor its absence could be proven.
+  OtherPaths,         ///< A jump that other values of VGPL decide otherwise.
+  OtherRegisters,     ///< A jump that other values of a register decide otherwise, which the program has not assigned.
 };
 
 /// Something that could not be verified, with the line where it begins.
 struct Unverified {
   Gap gap = Gap::Undecided;
   std::size_t line = 0;     ///< From 0.
-  dialect::GivenName tool;  ///< None for Undecided.
+  dialect::GivenName name;  ///< Of the tool or the register; none for the others.
+  std::size_t paths = 1;    ///< Of OtherPaths: the number of paths that have been run.
 };
 
 /// What has been proven, and what not.

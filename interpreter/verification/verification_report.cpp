@@ -27,17 +27,33 @@ static std::string counted(std::size_t count, const Text& one, const Text& sever
   return fmt::format("{} {}", grouped(count, language), (count == 1 ? one : several).in(language));
 }
 
+static std::string in_words(const Unverified& gap, Language language) {
+  static constexpr Text kWithoutShape = {"{} has no shape", "{} non ha forma"};
+  static constexpr Text kWithoutLength = {"{} has no length", "{} non ha lunghezza"};
+  static constexpr Text kUndecided = {"motions that could not be decided, from line {} on",
+                                      "movimenti su cui non si è potuto decidere, dalla linea {}"};
+  static constexpr Text kOtherValues = {"other values of {} at the jump of line {}",
+                                        "altri valori di {} al salto della linea {}"};
+  const std::string_view name = gap.name.in(language);
+  const std::size_t line = gap.line + 1;
+  switch (gap.gap) {
+    case Gap::ToolWithoutShape:
+      return dialect::format(kWithoutShape, language, name);
+    case Gap::ToolWithoutLength:
+      return dialect::format(kWithoutLength, language, name);
+    case Gap::OtherPaths:
+      return dialect::format(kOtherValues, language, "VGPL", line);
+    case Gap::OtherRegisters:
+      return dialect::format(kOtherValues, language, name, line);
+    case Gap::Undecided:
+      break;
+  }
+  return dialect::format(kUndecided, language, line);
+}
+
 static std::vector<std::string> not_verified(const Certificate& certificate, Language language) {
   std::vector<std::string> gaps;
-  for (const Unverified& each : certificate.gaps) {
-    const Text text = each.gap == Gap::ToolWithoutShape ? Text{"{} has no shape", "{} non ha forma"}
-                      : each.gap == Gap::ToolWithoutLength
-                          ? Text{"{} has no length", "{} non ha lunghezza"}
-                          : Text{"motions that could not be decided, from line {} on",
-                                 "movimenti su cui non si è potuto decidere, dalla linea {}"};
-    gaps.push_back(each.gap == Gap::Undecided ? dialect::format(text, language, each.line + 1)
-                                              : dialect::format(text, language, each.tool.in(language)));
-  }
+  for (const Unverified& each : certificate.gaps) gaps.push_back(in_words(each, language));
   if (certificate.stopped_at)
     gaps.push_back(dialect::format(Text{"what follows the error on line {}", "ciò che segue l'errore alla linea {}"},
                                    language, *certificate.stopped_at + 1));

@@ -29,11 +29,25 @@ syntax::Finding finding_of(const Contact& contact) {
       .described = contact.described.file.empty() ? dialect::GivenPlace() : dialect::GivenPlace::of(contact.described)};
 }
 
-static syntax::Finding finding_of(const Unverified& gap) {
-  const dialect::Cause cause = gap.gap == Gap::ToolWithoutShape    ? "not-verified/tool-without-shape"_cause
-                               : gap.gap == Gap::ToolWithoutLength ? "not-verified/tool-without-length"_cause
-                                                                   : "not-verified/undecided"_cause;
-  return {.id = cause.id, .cause = cause.number, .names = {gap.tool}};
+static dialect::Cause cause_of(Gap gap) {
+  switch (gap) {
+    case Gap::ToolWithoutShape:
+      return "not-verified/tool-without-shape"_cause;
+    case Gap::ToolWithoutLength:
+      return "not-verified/tool-without-length"_cause;
+    case Gap::OtherPaths:
+      return "not-verified/other-paths"_cause;
+    case Gap::OtherRegisters:
+      return "not-verified/other-registers"_cause;
+    case Gap::Undecided:
+      break;
+  }
+  return "not-verified/undecided"_cause;
+}
+
+syntax::Finding finding_of(const Unverified& gap) {
+  const dialect::Cause cause = cause_of(gap.gap);
+  return {.id = cause.id, .cause = cause.number, .values = {static_cast<double>(gap.paths)}, .names = {gap.name}};
 }
 
 /// Adds what a scene has shown to the findings of a run, in their order.

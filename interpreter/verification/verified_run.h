@@ -19,6 +19,9 @@ struct VerifiedRun {
 /// The finding that tells a contact, without a span.
 syntax::Finding finding_of(const Contact& contact);
 
+/// The finding that tells what could not be verified, without a span.
+syntax::Finding finding_of(const Unverified& gap);
+
 /// Ends a verifier, and adds what it has found to the outcome of the run that it has heard. `text` is that of the
 /// program.
 VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier, std::string_view text,

@@ -59,7 +59,7 @@ void Verifier::mount(const execution::ToolCode& tool, std::size_t line) {
   if ((has_length && has_shape) || !known_gaps_.insert(tool).second) return;
   certificate_.gaps.push_back({.gap = has_length ? Gap::ToolWithoutShape : Gap::ToolWithoutLength,
                                .line = line,
-                               .tool = dialect::GivenName::of({mounted.name, mounted.name})});
+                               .name = dialect::GivenName::of({mounted.name, mounted.name})});
 }
 
 void Verifier::examine_waiting() {

@@ -197,8 +197,8 @@ check::FirstFindings AnalyzedDocument::run_excerpt() {
   if (!run_) return {};
   if (!is_long()) return {part_of(report(), true), run_->left_out()};
   const selection::Selection& selection = settings_.program->selection;
-  std::vector<simulation::RunFinding> found = run_->outcome().findings;
-  std::erase_if(found, [&](const simulation::RunFinding& each) { return is_known(each); });
+  simulation::RunOutcome found = run_->outcome();
+  std::erase_if(found.findings, [&](const simulation::RunFinding& each) { return is_known(each); });
   return {check::folded(selection.shown(selection::with_run({}, found))), run_->left_out()};
 }
 

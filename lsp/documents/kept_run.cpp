@@ -9,7 +9,9 @@
 
 namespace isocnc::documents {
 
+using simulation::RunDecision;
 using simulation::RunFinding;
+using simulation::TakenPath;
 
 /// Whether each finding is the first of its mistake.
 static std::vector<bool> are_first(const std::vector<RunFinding>& findings) {
@@ -41,19 +43,35 @@ KeptRun::KeptRun(simulation::RunOutcome outcome) : outcome_(std::move(outcome)) 
 
 void KeptRun::replace_lines(std::size_t first, std::size_t removed, std::size_t inserted) {
   const std::size_t after = first + removed;  // The first line that moves.
-  std::erase_if(outcome_.findings, [&](const RunFinding& each) { return each.line >= first && each.line < after; });
+  const auto is_replaced = [&](std::size_t line) { return line >= first && line < after; };
+  // Findings to which an edited jump leads are about that line, too.
+  std::vector<bool> is_path_lost;
+  for (std::vector<RunDecision>& path : outcome_.paths) {
+    is_path_lost.push_back(
+        std::any_of(path.begin(), path.end(), [&](const auto& step) { return is_replaced(step.line); }));
+    for (RunDecision& step : path)
+      if (step.line >= after) step.line = step.line - removed + inserted;
+  }
+  std::erase_if(outcome_.findings, [&](const RunFinding& each) {
+    return is_replaced(each.line) || (each.path >= 0 && is_path_lost[static_cast<std::size_t>(each.path)]);
+  });
   for (RunFinding& each : outcome_.findings) {
     if (each.line >= after) each.line = each.line - removed + inserted;
     if (!each.last_line || *each.last_line < first) continue;
     each.last_line = *each.last_line < after ? std::nullopt : std::optional(*each.last_line - removed + inserted);
   }
-  std::vector<std::pair<std::size_t, std::size_t>> executed;
-  executed.reserve(outcome_.executed.size() + 1);
-  for (const auto& [begin, last] : outcome_.executed) {
-    if (begin < first) executed.emplace_back(begin, std::min(last, first - 1));
-    if (last >= after) executed.emplace_back(std::max(begin, after) - removed + inserted, last - removed + inserted);
+  for (TakenPath& run : outcome_.runs) {
+    std::vector<std::pair<std::size_t, std::size_t>> executed;
+    executed.reserve(run.executed.size() + 1);
+    for (const auto& [begin, last] : run.executed) {
+      if (begin < first) executed.emplace_back(begin, std::min(last, first - 1));
+      if (last >= after) executed.emplace_back(std::max(begin, after) - removed + inserted, last - removed + inserted);
+    }
+    run.executed = std::move(executed);
+    std::erase_if(run.decisions, [&](const RunDecision& each) { return is_replaced(each.line); });
+    for (RunDecision& each : run.decisions)
+      if (each.line >= after) each.line = each.line - removed + inserted;
   }
-  outcome_.executed = std::move(executed);
 }
 
 }  // namespace isocnc::documents

@@ -10,6 +10,7 @@
 
 #include "run_command.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
 namespace {
@@ -139,6 +140,36 @@ TEST_F(IsolintVerify, AgreesWithIsorunInWords) {
   EXPECT_EQ(summary.at("findings"), of_text);
 }
 
+constexpr std::string_view kProgramWithJumps =
+    "M06 T101001\nIF VGPL >= 1 GOTO N30\nG00 X30\nM02\nN30 G00 X130\nIF VGPL = 2 GOTO N40\nM02\nN40 Z130\nM02\n";
+
+TEST_F(IsolintVerify, RunsEachPathThatVgplLeadsAlong) {
+  folder_.write("part.iso", kProgramWithJumps);
+  const json found = findings({"--verify", "part.iso"});
+  EXPECT_THAT(places_of(found), ElementsAre("E160@5", "E160@8"));
+  EXPECT_EQ(found[0].at("path"), json::parse(R"([{"line": 2, "text": "IF VGPL >= 1 GOTO N30: jumps"}])"));
+  EXPECT_EQ(found[1].at("path"), json::parse(R"([{"line": 2, "text": "IF VGPL >= 1 GOTO N30: jumps"},
+                                                 {"line": 6, "text": "IF VGPL = 2 GOTO N40: jumps"}])"));
+  // With VGPL 2 X is still outside there: the same mistake.
+  EXPECT_EQ(found[0].at("message"),
+            "the machine's X leaves its travel: it goes to 130, and the travel ends at 100 (and 1 more line, line 8)");
+  for (const char* const jobs : {"1", "2"})
+    EXPECT_EQ(findings({"--verify", "--jobs", jobs, "part.iso"}), found) << "with " << jobs << " jobs";
+}
+
+TEST_F(IsolintVerify, IsorunSaysThatItHasRunOnePath) {
+  folder_.write("part.iso", kProgramWithJumps);
+  folder_.write("part.setup.json", R"({"fixtures": [{"name": "clamp", "box": [[900, 900, 0], [950, 950, 30]]}]})");
+  const CommandResult result = run({"isorun", "--verify", "--vgpl", "1", "part.iso"});
+  EXPECT_THAT(result.out,
+              HasSubstr("info[W162]: where this jump leads with other values of VGPL is not verified (paths "
+                        "that were run: 1)\n --> part.iso:2:1\n"));
+  EXPECT_THAT(result.out, HasSubstr("other values of VGPL at the jump of line 2\n"));
+  const json summary = json::parse(run({"isorun", "--json", "part.iso"}).out);
+  EXPECT_THAT(summary.at("verification").at("certificate").at("notVerified").dump(),
+              HasSubstr("other values of VGPL at the jump of line 2"));
+}
+
 TEST_F(IsolintVerify, LeavesStandardOutputToATrace) {
   const CommandResult result = run({"isorun", "--verify", "--trace", "-", "part.iso"});
   EXPECT_THAT(result.err, HasSubstr("error[E160]"));
@@ -200,7 +231,15 @@ TEST(IsolintVerifyExamples, IsTheUnionOfTheTextAndTheRun) {
       const json run = findings_of({"isorun", "--json", "--verify"}).at("findings");
       std::set<Place> joined = places_in(findings_of({"isolint", "--format", "json"}), {"W130"});
       joined.merge(places_in(run));
-      EXPECT_EQ(places_in(both, {"W130"}), joined) << file << " " << json(machine);
+      // Each value of VGPL leads along another path; that there are others is said of each.
+      const bool has_jumps = text_of_file(file).find("IF VGPL") != std::string::npos;
+      for (const char* const vgpl : {"1", "2", "3"})
+        if (has_jumps)
+          joined.merge(places_in(findings_of({"isorun", "--json", "--verify", "--vgpl", vgpl}).at("findings")));
+      const std::set<std::string> left_out =
+          has_jumps ? std::set<std::string>{"W130", "W162"} : std::set<std::string>{"W130"};
+      std::erase_if(joined, [&](const Place& place) { return left_out.contains(std::get<2>(place)); });
+      EXPECT_EQ(places_in(both, left_out), joined) << file << " " << json(machine);
       EXPECT_TRUE(std::is_sorted(both.begin(), both.end(), [](const json& a, const json& b) {
         return std::pair(a.at("line").get<int>(), a.at("column").get<int>()) <
                std::pair(b.at("line").get<int>(), b.at("column").get<int>());
@@ -214,7 +253,8 @@ TEST(IsolintVerifyExamples, IsTheUnionOfTheTextAndTheRun) {
 TEST(IsolintVerifyExamples, FindsNothingInThoseThatAreRight) {
   for (const std::filesystem::path& file : example_programs()) {
     if (file.parent_path().filename() == "broken") continue;
-    EXPECT_EQ(run_command({"isolint", "--format", "concise", "--verify", file}).out,
+    // In one of them the operator sets a register.
+    EXPECT_EQ(run_command({"isolint", "--format", "concise", "--verify", "--ignore", "W162", file}).out,
               run_command({"isolint", "--format", "concise", file}).out);
   }
 }

@@ -11,10 +11,10 @@
 #include "analyzer/selection/run_report.h"
 #include "analyzer/selection/style_findings.h"
 #include "analyzer/selection/suppressions.h"
+#include "analyzer/selection/verified.h"
 #include "golden_program.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/syntax/line_finder.h"
-#include "interpreter/verification/verified_run.h"
 #include "tests/support/report_text.h"
 
 namespace isocnc::golden {
@@ -39,7 +39,7 @@ check::Report reported_in(const Part& part) {
   rules::CheckSetup setup{.machine = part.setup};
   setup.every_motion = !part.selected.empty();
   if (part.is_run) {
-    const verification::VerifiedRun run = verification::verified_run(
+    const verification::VerifiedRun run = selection::verified_on_paths(
         part.program, {.setup = part.setup, .vgpl = part.vgpl}, part.machine, part.scene ? &*part.scene : nullptr);
     return selection::shown_report_with_run(check::check_text(part.program, setup), run.outcome, part.program,
                                             selection);

@@ -188,6 +188,21 @@ TEST_F(VerificationTest, RelatesAContactToItsEndAndToWhatIsHit) {
   EXPECT_EQ(session_.diagnostics(uri_, version_)[0]["relatedInformation"], Json::array({described}));
 }
 
+/// Another value of VGPL than 0 leads there.
+TEST_F(VerificationTest, ShowsWhatOtherValuesOfVgplLeadTo) {
+  start({{"textDocument", {{"publishDiagnostics", {{"relatedInformation", true}}}}}}, {{"verify", "onSave"}});
+  open("M06 T101001\nIF VGPL >= 1 GOTO N30\nM02\nN30 G00 X130\nIF V2 = 1 GOTO N40\nN40 M02\n");
+  pushed();
+  const Json diagnostics = session_.diagnostics(uri_, version_);
+  EXPECT_THAT(of_machine(diagnostics), ElementsAre("E160@3", "W162@4"));
+  const Json& jumps = diagnostics[0]["relatedInformation"];
+  ASSERT_EQ(jumps.size(), 1u) << diagnostics;
+  EXPECT_EQ(jumps[0]["message"], "IF VGPL >= 1 GOTO N30: jumps");
+  EXPECT_EQ(jumps[0]["location"]["range"]["start"]["line"], 1);
+  edit(change(1, 13, 1, 14, "2"));
+  EXPECT_THAT(pushed(), ElementsAre("(W162@4)"));
+}
+
 TEST_F(VerificationTest, FadesWhileTheTextHasChangedSince) {
   start({}, {{"verify", "onSave"}});
   open();
@@ -500,19 +515,36 @@ simulation::RunFinding finding(std::size_t line, std::int32_t mistake = -1) {
 using Stretches = std::vector<std::pair<std::size_t, std::size_t>>;
 
 TEST(KeptRun, MovesWithItsLines) {
-  documents::KeptRun run({.findings = {finding(1), finding(5), finding(9)}, .executed = {{0, 3}, {5, 9}}});
+  documents::KeptRun run({.findings = {finding(1), finding(5), finding(9)}, .runs = {{.executed = {{0, 3}, {5, 9}}}}});
   run.replace_lines(5, 2, 3);
   EXPECT_EQ(run.outcome().findings, (std::vector{finding(1), finding(10)}));
-  EXPECT_EQ(run.outcome().executed, (Stretches{{0, 3}, {8, 10}}));
+  EXPECT_EQ(run.outcome().runs[0].executed, (Stretches{{0, 3}, {8, 10}}));
   run.replace_lines(9, 0, 1);
   EXPECT_EQ(run.outcome().findings, (std::vector{finding(1), finding(11)}));
-  EXPECT_EQ(run.outcome().executed, (Stretches{{0, 3}, {8, 8}, {10, 11}}));
+  EXPECT_EQ(run.outcome().runs[0].executed, (Stretches{{0, 3}, {8, 8}, {10, 11}}));
   run.replace_lines(0, 2, 0);
   EXPECT_EQ(run.outcome().findings, std::vector{finding(9)});
-  EXPECT_EQ(run.outcome().executed, (Stretches{{0, 1}, {6, 6}, {8, 9}}));
+  EXPECT_EQ(run.outcome().runs[0].executed, (Stretches{{0, 1}, {6, 6}, {8, 9}}));
   run.replace_lines(0, 20, 1);
   EXPECT_TRUE(run.outcome().findings.empty());
-  EXPECT_TRUE(run.outcome().executed.empty());
+  EXPECT_TRUE(run.outcome().runs[0].executed.empty());
+}
+
+/// What an edited jump leads to may not be reached any more.
+TEST(KeptRun, MovesTheJumpsThatLeadToFindings) {
+  simulation::RunOutcome outcome{.findings = {finding(7), finding(8), finding(9)},
+                                 .runs = {{.decisions = {{2, false}, {4, false}}}},
+                                 .paths = {{{2, true}}, {{4, true}}}};
+  outcome.findings[1].path = 0;
+  outcome.findings[2].path = 1;
+  documents::KeptRun run(outcome);
+  run.replace_lines(3, 0, 10);
+  EXPECT_EQ(run.outcome().findings.size(), 3u);
+  EXPECT_EQ(run.outcome().paths[0], (std::vector<simulation::RunDecision>{{2, true}}));
+  EXPECT_EQ(run.outcome().paths[1], (std::vector<simulation::RunDecision>{{14, true}}));
+  run.replace_lines(14, 1, 1);
+  EXPECT_EQ(run.outcome().findings.size(), 2u);
+  EXPECT_EQ(run.outcome().runs[0].decisions, (std::vector<simulation::RunDecision>{{2, false}}));
 }
 
 TEST(KeptRun, DropsRepetitionsFirst) {

@@ -1,0 +1,176 @@
+#include "analyzer/selection/vgpl_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analyzer/check/jump_map.h"
+#include "interpreter/verification/verified_run.h"
+
+namespace isocnc::selection {
+
+using syntax::Comparison;
+using verification::Gap;
+using verification::Unverified;
+
+static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+static bool compares_vgpl(const syntax::Jump& jump) {
+  return jump.condition_is_known() && jump.variable == syntax::Jump::kVgplVariable;
+}
+
+/// The comparison that is true where this one is false.
+static Comparison opposite(Comparison comparison) {
+  switch (comparison) {
+    case Comparison::Equal:
+      return Comparison::NotEqual;
+    case Comparison::NotEqual:
+      return Comparison::Equal;
+    case Comparison::Less:
+      return Comparison::GreaterEqual;
+    case Comparison::GreaterEqual:
+      return Comparison::Less;
+    case Comparison::Greater:
+      return Comparison::LessEqual;
+    case Comparison::LessEqual:
+      return Comparison::Greater;
+    case Comparison::Invalid:
+      break;
+  }
+  return Comparison::Invalid;
+}
+
+/// A value between two others, the integer nearest to 0 if there is one; none if no value is between them.
+static std::optional<double> value_between(double low, double high) {
+  if (low < 0 && high > 0) return 0;
+  const double integer = low >= 0 ? std::floor(low) + 1 : std::ceil(high) - 1;
+  if (low < integer && integer < high) return integer;
+  // Above 2^53 all numbers are integers, and the next one is farther away than 1.
+  const double inside = std::isinf(low) || std::isinf(high)
+                            ? std::nextafter(low >= 0 ? low : high, low >= 0 ? high : low)
+                            : low / 2 + high / 2;
+  if (low < inside && inside < high && std::isfinite(inside)) return inside;
+  return std::nullopt;
+}
+
+VgplValues::VgplValues(std::string_view text) {
+  check::each_event_in(text, [&](const check::FlowEvent& event) {
+    if (event.kind == check::FlowEvent::Kind::Label) return;
+    const bool is_jump = event.kind == check::FlowEvent::Kind::Jump;
+    steps_.push_back({.line = event.line, .assigned = is_jump ? 0 : event.reg, .jump = event.jump});
+    if (is_jump && compares_vgpl(event.jump)) constants_.push_back(event.jump.value);
+  });
+  std::sort(constants_.begin(), constants_.end());
+  constants_.erase(std::unique(constants_.begin(), constants_.end()), constants_.end());
+  cut_into_cells();
+}
+
+void VgplValues::cut_into_cells() {
+  const auto add = [&](std::optional<double> value) {
+    cells_.push_back({.value = value.value_or(0), .is_open = value.has_value()});
+  };
+  double below = -kInfinity;
+  for (const double constant : constants_) {
+    add(value_between(std::exchange(below, constant), constant));
+    add(std::isfinite(constant) ? std::optional(constant) : std::nullopt);
+  }
+  add(value_between(below, kInfinity));
+  for (const bool of_integers : {true, false})
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if ((cells_[i].value == std::floor(cells_[i].value)) == of_integers) order_.push_back(i);
+}
+
+/// The index of a constant's cell.
+std::size_t VgplValues::cell_of(double constant) const {
+  const auto place = std::lower_bound(constants_.begin(), constants_.end(), constant);
+  return 2 * static_cast<std::size_t>(place - constants_.begin()) + 1;
+}
+
+void VgplValues::take(const simulation::TakenPath& run) {
+  std::vector<MetJump> met;
+  met.reserve(run.decisions.size());
+  std::uint32_t assigned = 0;
+  auto decision = run.decisions.begin();
+  for (std::size_t i = 0; i < steps_.size() && decision != run.decisions.end(); ++i) {
+    const FlowStep& step = steps_[i];
+    if (step.assigned > 0) {
+      if (run.has_executed(step.line)) assigned |= check::register_bit(step.assigned);
+      continue;
+    }
+    if (step.line != decision->line) continue;
+    met.push_back({.step = i, .taken = (decision++)->taken});
+    const bool is_on_register = step.jump.condition_is_known() && step.jump.variable > 0;
+    if (is_on_register && (assigned & check::register_bit(step.jump.variable)) == 0)
+      register_jump_ = std::min(i, register_jump_.value_or(i));
+  }
+  close(met);
+  runs_.push_back(std::move(met));
+}
+
+/// Closes the cells whose values decide all these jumps alike.
+void VgplValues::close(const std::vector<MetJump>& met) {
+  std::size_t first = 0;
+  std::size_t last = cells_.size() - 1;
+  std::vector<std::size_t> excluded;
+  for (const MetJump& each : met) {
+    const syntax::Jump& jump = steps_[each.step].jump;
+    if (!compares_vgpl(jump)) continue;
+    const std::size_t cell = cell_of(jump.value);
+    const Comparison comparison = each.taken ? jump.comparison : opposite(jump.comparison);
+    if (comparison == Comparison::NotEqual) excluded.push_back(cell);
+    if (comparison == Comparison::Equal || comparison == Comparison::GreaterEqual) first = std::max(first, cell);
+    if (comparison == Comparison::Equal || comparison == Comparison::LessEqual) last = std::min(last, cell);
+    if (comparison == Comparison::Greater) first = std::max(first, cell + 1);
+    if (comparison == Comparison::Less) last = std::min(last, cell - 1);
+  }
+  std::sort(excluded.begin(), excluded.end());
+  for (std::size_t i = first; i <= last; ++i)
+    if (!std::binary_search(excluded.begin(), excluded.end(), i)) cells_[i].is_open = false;
+}
+
+std::optional<double> VgplValues::next() const {
+  const auto place = std::find_if(order_.begin(), order_.end(), [&](std::size_t i) { return cells_[i].is_open; });
+  return place == order_.end() ? std::nullopt : std::optional(cells_[*place].value);
+}
+
+/// The jump at which the value that comes next leaves the paths of all runs: an index into steps_.
+std::optional<std::size_t> VgplValues::open_jump() const {
+  const std::optional<double> value = next();
+  if (!value) return std::nullopt;
+  std::size_t deepest = 0;
+  for (const std::vector<MetJump>& run : runs_) {
+    const auto leaves = std::find_if(run.begin(), run.end(), [&](const MetJump& each) {
+      const syntax::Jump& jump = steps_[each.step].jump;
+      return compares_vgpl(jump) && running::holds(jump, *value) != each.taken;
+    });
+    if (leaves != run.end()) deepest = std::max(deepest, leaves->step);
+  }
+  return deepest;
+}
+
+std::vector<Unverified> VgplValues::gaps() const {
+  std::vector<Unverified> gaps;
+  if (const std::optional<std::size_t> jump = open_jump())
+    gaps.push_back({.gap = Gap::OtherPaths, .line = steps_[*jump].line, .name = {}, .paths = runs_.size()});
+  if (!register_jump_) return gaps;
+  const FlowStep& step = steps_[*register_jump_];
+  const std::string name = fmt::format("V{}", step.jump.variable);
+  gaps.push_back({.gap = Gap::OtherRegisters, .line = step.line, .name = dialect::GivenName::of({name, name})});
+  return gaps;
+}
+
+std::vector<simulation::RunFinding> VgplValues::findings() const {
+  std::vector<simulation::RunFinding> findings;
+  for (const Unverified& gap : gaps()) {
+    const std::size_t step = gap.gap == Gap::OtherPaths ? *open_jump() : *register_jump_;
+    const syntax::Jump& jump = steps_[step].jump;
+    findings.push_back({.line = gap.line, .finding = finding_of(gap)});
+    findings.back().finding.span = {jump.if_span.begin, jump.target_span.end};
+  }
+  return findings;
+}
+
+}  // namespace isocnc::selection

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/simulation/run_findings.h"
+#include "interpreter/syntax/line_tree.h"
+#include "interpreter/verification/contact.h"
+
+namespace isocnc::selection {
+
+/// The values of VGPL that may lead a program along different paths: its IFs compare VGPL with constants, which cut all
+/// values into cells (below, at, between and above them), and within a cell the path is the same. Each run has one
+/// value from its start to its end. Runs are taken out as they are made, with all values that lead along the same path.
+class VgplValues {
+ public:
+  /// Reads the jumps of a program.
+  explicit VgplValues(std::string_view text);
+
+  /// Takes out a run with the value that next() has given, or with any.
+  void take(const simulation::TakenPath& run);
+  /// A value that leads along a path that no run has taken, an integer if possible; none if there is none.
+  std::optional<double> next() const;
+  /// The jumps that other values decide otherwise than all runs: the first such of VGPL, and the first of a register
+  /// that the run has not assigned, with its line and the span of its IF.
+  std::vector<simulation::RunFinding> findings() const;
+  /// The same for a certificate.
+  std::vector<verification::Unverified> gaps() const;
+
+ private:
+  /// An assignment to a register or an IF, in the order of the program.
+  struct FlowStep {
+    std::size_t line = 0;
+    int assigned = 0;  ///< The register; 0: a jump.
+    syntax::Jump jump;
+  };
+
+  /// A jump that a run has met.
+  struct MetJump {
+    std::size_t step = 0;  ///< An index into steps_.
+    bool taken = false;
+  };
+
+  /// A range of values without a constant inside, or a constant.
+  struct Cell {
+    double value = 0;      ///< One of its values.
+    bool is_open = false;  ///< No run has taken the path of its values, and there are any.
+  };
+
+  void cut_into_cells();
+  std::size_t cell_of(double constant) const;
+  void close(const std::vector<MetJump>& met);
+  std::optional<std::size_t> open_jump() const;
+
+  std::vector<FlowStep> steps_;
+  std::vector<double> constants_;   ///< Ascending.
+  std::vector<Cell> cells_;         ///< Below the first constant, the constant, above it, and so on.
+  std::vector<std::size_t> order_;  ///< The cells as they are tried: integers first, ascending.
+  std::vector<std::vector<MetJump>> runs_;
+  std::optional<std::size_t> register_jump_;  ///< The topmost jump on a register that a run has not assigned.
+};
+
+}  // namespace isocnc::selection
