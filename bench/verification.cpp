@@ -66,7 +66,9 @@ void run_alone(benchmark::State& state, const Case& of) {
     simulation::RunFindings findings(of.machine);
     simulation::Timing timing(of.machine, {.event =
                                                [&](const simulation::TimedEvent& timed) {
-                                                 if (timed.move) findings.take(timed.event.line, *timed.move);
+                                                 if (!timed.move) return;
+                                                 simulation::MadeMove made(of.machine.motion, *timed.move);
+                                                 findings.take(timed.event.line, made);
                                                },
                                            .stretch = {}});
     simulation::Compensation compensation(of.machine);

@@ -61,8 +61,10 @@ void RunReport::close(system::OutputFile& output, const std::string& name) {
 }
 
 void RunReport::take(const simulation::TimedEvent& timed) {
-  summary_.add(timed);
-  if (timed.move) findings_.take(timed.event.line, *timed.move);
+  std::optional<simulation::MadeMove> made;
+  if (timed.move) made.emplace(machine_.motion, *timed.move);
+  summary_.add(timed, made ? &*made : nullptr);
+  if (made) findings_.take(timed.event.line, *made);
   if (verifier_) verifier_->take(timed);
   if (plot_) plot_->add(timed);
   if (trace_ != nullptr) trace_->write(to_json(timed, machine_) + '\n');

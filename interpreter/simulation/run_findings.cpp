@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "interpreter/geometry/arc.h"
-#include "interpreter/kinematics/travel.h"
 #include "interpreter/simulation/machine_course.h"
 #include "interpreter/simulation/programmed_speeds.h"
 #include "interpreter/syntax/line_finder.h"
@@ -65,27 +64,28 @@ void RunFindings::take(const running::Event& event) {
 
 void RunFindings::take(const RunWarning& warning) { report(warning.line, warning.id, warning.values); }
 
-void RunFindings::take(std::size_t line, const kinematics::Move& made) {
+void RunFindings::take(std::size_t line, MadeMove& made) {
   if (checks_travel_) look_at_travel(line, made);
   if (checks_speeds_) look_at_speeds(line, made);
 }
 
-void RunFindings::look_at_travel(std::size_t line, const kinematics::Move& made) {
+void RunFindings::look_at_travel(std::size_t line, MadeMove& made) {
+  const kinematics::Move& move = made.move();
   std::array<bool, 2 * kinematics::kAxisCount> is_passed{};
-  for (const kinematics::Overtravel& found : kinematics::overtravels(machine_->motion, made)) {
+  for (const kinematics::Overtravel& found : made.overtravels()) {
     const bool is_above = found.position > found.limit;
     const auto beyond = [&](double joint) { return is_above ? joint - found.limit : found.limit - joint; };
     const auto joint_at = [&](const geometry::Pose& tip) {
       return kinematics::inverse(machine_->motion.kinematics, kinematics::coordinates(tip),
-                                 made.tool_length)[found.axis];
+                                 move.tool_length)[found.axis];
     };
     const auto index = 2 * static_cast<std::size_t>(found.axis) + (is_above ? 1 : 0);
     is_passed[index] = true;
     TravelEnd& end = ends_[index];
     // The way back inside is no mistake of its own, nor is a home outside the travel.
-    const double start = std::max(0.0, beyond(joint_at(made.from)));
+    const double start = std::max(0.0, beyond(joint_at(move.from)));
     const bool goes_out = beyond(found.position) > start + kinematics::kTravelSlack;
-    const bool stays_out = end.is_passed && beyond(joint_at(made.to)) > kinematics::kTravelSlack;
+    const bool stays_out = end.is_passed && beyond(joint_at(move.to)) > kinematics::kTravelSlack;
     if (!goes_out && !stays_out) continue;
     if (!end.is_passed) {
       end = {.is_passed = true, .mistake = static_cast<std::int32_t>(farthest_.size())};
@@ -98,11 +98,11 @@ void RunFindings::look_at_travel(std::size_t line, const kinematics::Move& made)
   for (std::size_t i = 0; i < ends_.size(); ++i) ends_[i].is_passed = ends_[i].is_passed && is_passed[i];
 }
 
-void RunFindings::look_at_speeds(std::size_t line, const kinematics::Move& made) {
-  if (made.feed.kind == kinematics::FeedKind::Rapid) return;
-  const double length = kinematics::tip_travel(machine_->motion, made).length;
-  const ProgrammedSpeeds speeds = programmed_speeds(made, length);
-  const bool is_timed = made.feed.kind == kinematics::FeedKind::Duration;  // Other feeds are judged as programmed.
+void RunFindings::look_at_speeds(std::size_t line, MadeMove& made) {
+  const kinematics::Move& move = made.move();
+  if (move.feed.kind == kinematics::FeedKind::Rapid) return;
+  const ProgrammedSpeeds speeds = programmed_speeds(move, made.tip_travel().length);
+  const bool is_timed = move.feed.kind == kinematics::FeedKind::Duration;  // Other feeds are judged as programmed.
   if (is_timed && exceeds(Limit::Feed, speeds.feed, *machine_))
     report(line, "feed-above-machine"_diag, {speeds.feed, limit_of(Limit::Feed, *machine_)});
   if (exceeds(Limit::RotarySpeed, speeds.rotary, *machine_))
@@ -187,7 +187,11 @@ RunOutcome outcome_of_run(std::string_view text, running::RunOptions options, co
   RunFindings findings(machine);
   MachineCourse course(machine, machine.home);
   const MachineCourse::Listeners listeners{
-      .move = [&](const running::Event& event, const kinematics::Move& made) { findings.take(event.line, made); },
+      .move =
+          [&](const running::Event& event, const kinematics::Move& move) {
+            MadeMove made(machine.motion, move);
+            findings.take(event.line, made);
+          },
       .warning = [&](const RunWarning& warning) { findings.take(warning); }};
   options.before_block = [&](const running::Block& block) { findings.take(block); };
   const running::RunResult result = run(text, options, [&](const running::Event& event) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interpreter/kinematics/travel.h"
 
 namespace isocnc::simulation {
 
@@ -39,6 +38,12 @@ static std::optional<Work> work_of(const running::Event& event) {
 }
 
 void Summary::add(const TimedEvent& timed) {
+  if (!timed.move) return add(timed, nullptr);
+  MadeMove made(machine_.motion, *timed.move);
+  add(timed, &made);
+}
+
+void Summary::add(const TimedEvent& timed, MadeMove* made) {
   const running::Event& event = timed.event;
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what)) mount(tool->tool);
   if (const std::optional<Work> work = work_of(event)) spend(*work, timed.duration);
@@ -46,7 +51,7 @@ void Summary::add(const TimedEvent& timed) {
   if (const auto* const frame = std::get_if<running::FrameEvent>(&event.what)) frames_.take(*frame, event.line);
   if (const auto* const spindle = std::get_if<running::SpindleSpeedEvent>(&event.what))
     ask_for(Limit::SpindleSpeed, spindle->speed, event.line);
-  if (timed.move) add_move(std::get<running::MoveEvent>(event.what), *timed.move, event.line);
+  if (made != nullptr) add_move(std::get<running::MoveEvent>(event.what), *made, event.line);
 }
 
 void Summary::spend(Work work, double seconds) {
@@ -55,8 +60,9 @@ void Summary::spend(Work work, double seconds) {
   share().times[static_cast<std::size_t>(work)] += seconds;
 }
 
-void Summary::add_move(const running::MoveEvent& move, const kinematics::Move& real, std::size_t line) {
-  const auto [length, linear] = kinematics::tip_travel(machine_.motion, real);
+void Summary::add_move(const running::MoveEvent& move, MadeMove& made, std::size_t line) {
+  const kinematics::Move& real = made.move();
+  const auto& [length, linear] = made.tip_travel();
   Travelled& travelled = moves_[static_cast<std::size_t>(move.kind)];
   ++travelled.count;
   travelled.mm += length;
@@ -68,13 +74,13 @@ void Summary::add_move(const running::MoveEvent& move, const kinematics::Move& r
   if (!extents_) extents_ = reached;
   for (std::size_t axis = 0; axis < reached.size(); ++axis) (*extents_)[axis].include(reached[axis]);
   frames_.take(machine_.motion, real, linear);
-  look_at_travel(real, line);
-  look_at_speeds(real, length, line);
+  look_at_travel(made, line);
+  look_at_speeds(made, line);
 }
 
-void Summary::look_at_travel(const kinematics::Move& real, std::size_t line) {
+void Summary::look_at_travel(MadeMove& made, std::size_t line) {
   if (!checks_travel_) return;
-  for (const kinematics::Overtravel& found : kinematics::overtravels(machine_.motion, real)) {
+  for (const kinematics::Overtravel& found : made.overtravels()) {
     const std::size_t side = found.position > found.limit ? 1 : 0;
     std::optional<TravelBreach>& breach = breaches_[2 * static_cast<std::size_t>(found.axis) + side];
     if (!breach) breach = TravelBreach{.line = line, .farthest = found.position, .limit = found.limit};
@@ -83,8 +89,8 @@ void Summary::look_at_travel(const kinematics::Move& real, std::size_t line) {
   }
 }
 
-void Summary::look_at_speeds(const kinematics::Move& real, double length, std::size_t line) {
-  const ProgrammedSpeeds speeds = programmed_speeds(real, length);
+void Summary::look_at_speeds(MadeMove& made, std::size_t line) {
+  const ProgrammedSpeeds speeds = programmed_speeds(made.move(), made.tip_travel().length);
   ask_for(Limit::Feed, speeds.feed, line);
   ask_for(Limit::RotarySpeed, speeds.rotary, line);
 }

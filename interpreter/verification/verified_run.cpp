@@ -97,7 +97,10 @@ VerifiedRun verified_run(std::string_view text, running::RunOptions options, con
   simulation::Timing timing(machine,
                             {.event =
                                  [&](const simulation::TimedEvent& timed) {
-                                   if (timed.move) findings.take(timed.event.line, *timed.move);
+                                   if (timed.move) {
+                                     simulation::MadeMove made(machine.motion, *timed.move);
+                                     findings.take(timed.event.line, made);
+                                   }
                                    verifier.take(timed);
                                  },
                              .stretch = [&](const motion::Stretch& stretch,
