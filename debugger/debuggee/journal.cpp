@@ -38,7 +38,7 @@ Journal::Values::Values(const running::RunResult& run) {
 
 static bool is_other(double a, double b) { return !(a == b) && !(std::isnan(a) && std::isnan(b)); }
 
-void Journal::take(std::uint64_t block, std::size_t line, const Snapshot& from, const Snapshot& to,
+void Journal::take(std::uint64_t block, std::size_t line, const ModesAndValues& from, const ModesAndValues& to,
                    std::span<const running::Event> events) {
   if (block < known_) return;
   known_ = block + 1;

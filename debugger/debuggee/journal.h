@@ -37,8 +37,8 @@ class Journal {
     std::array<double, kCount> numbers;
   };
   /// What the journal compares before and after a block.
-  struct Snapshot {
-    explicit Snapshot(const running::RunResult& run) : modes(run.state), values(run) {}
+  struct ModesAndValues {
+    explicit ModesAndValues(const running::RunResult& run) : modes(run.state), values(run) {}
 
     Modes modes;
     Values values;
@@ -66,7 +66,7 @@ class Journal {
   };
 
   /// Notes what a block has done. `block`: how many have been executed before it.
-  void take(std::uint64_t block, std::size_t line, const Snapshot& from, const Snapshot& to,
+  void take(std::uint64_t block, std::size_t line, const ModesAndValues& from, const ModesAndValues& to,
             std::span<const running::Event> events);
   /// The run has been changed at this block: what is noted from there on is void.
   void forget_from(std::uint64_t block);

@@ -69,7 +69,7 @@ double Surroundings::depth_of(const Simulation& simulation) const {
 /// Gathers the stretches of a block, and finds what happens on them.
 class BlockPass {
  public:
-  BlockPass(const Surroundings& surroundings, const Surroundings::Wanted& wanted, const Simulation& before)
+  BlockPass(const Surroundings& surroundings, const Surroundings::BlockSearch& wanted, const Simulation& before)
       : surroundings_(surroundings), wanted_(wanted), machine_(before.machine()), tool_(before.tool()) {
     if (const Stretch* const stretch = before.stretch_before()) stretch_before_ = *stretch;
     for (const SurroundingsLimit& limit : wanted.limits)
@@ -136,7 +136,7 @@ class BlockPass {
   }
 
   const Surroundings& surroundings_;
-  const Surroundings::Wanted& wanted_;
+  const Surroundings::BlockSearch& wanted_;
   const simulation::TimedMachine& machine_;
   execution::ToolCode tool_;
   std::optional<Stretch> stretch_before_;
@@ -148,7 +148,7 @@ class BlockPass {
   Surroundings::PassedBlock passed_;
 };
 
-Surroundings::PassedBlock Surroundings::pass_block(Simulation& simulation, const Wanted& wanted) const {
+Surroundings::PassedBlock Surroundings::pass_block(Simulation& simulation, const BlockSearch& wanted) const {
   if (!are_known()) {
     simulation.step_block();
     return {};

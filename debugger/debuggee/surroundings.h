@@ -53,14 +53,14 @@ class Surroundings {
     std::vector<LimitCrossing> crossings;
   };
   /// What is looked for in a block.
-  struct Wanted {
+  struct BlockSearch {
     bool contacts = false;
     std::vector<SurroundingsLimit> limits;
   };
   /// Takes the simulation to the end of the block in progress or, between two blocks, of the next one. An obstacle that
   /// the stretch before touches is no new contact; a tool that is mounted in an obstacle touches it when it is moved
   /// next.
-  PassedBlock pass_block(simulation::Simulation& simulation, const Wanted& wanted) const;
+  PassedBlock pass_block(simulation::Simulation& simulation, const BlockSearch& wanted) const;
 
  private:
   friend class BlockPass;

@@ -1,6 +1,5 @@
 #include "debugger/requests/request.h"
 #include "debugger/session/console.h"
-#include "debugger/session/locations.h"
 #include "interpreter/text/characters.h"
 
 namespace isocnc::requests {
@@ -52,7 +51,7 @@ static EvaluateBody answer_evaluate(Session& session, const EvaluateArguments& a
     body.result = session::evaluate(session, arguments.expression, format);
   }
   if (const expressions::Quantity* const quantity = expressions::find_quantity(arguments.expression))
-    body.location = session::location_of(session, *quantity);
+    body.location = session.location_of(*quantity);
   return body;
 }
 

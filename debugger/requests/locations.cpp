@@ -1,7 +1,13 @@
-#include "debugger/session/locations.h"
+#include "debugger/expressions/locations.h"
+
+#include <filesystem>
+
 #include "debugger/requests/request.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::requests {
+
+static constexpr dialect::Text kNowhere{"no place has the reference {}", "nessun punto ha il riferimento {}"};
 
 namespace {
 
@@ -15,9 +21,26 @@ void from_json(const Json& json, LocationsArguments& arguments) {
 
 }  // namespace
 
+static Json in_other_file(const Session& session, const dialect::FilePlace& place) {
+  const std::filesystem::path file = std::filesystem::absolute(place.file);
+  return {{"source", {{"name", file.filename().generic_string()}, {"path", file.generic_string()}}},
+          {"line", session.client().to_client_line(place.line)}};
+}
+
 /// Where the value of a variable was set, or an obstacle is described.
 static Json answer_locations(Session& session, const LocationsArguments& arguments) {
-  return session::location(session, arguments.reference);
+  const debuggee::Debuggee& debuggee = session.stopped_debuggee();
+  const auto place = expressions::find_location(arguments.reference, debuggee, session.surroundings());
+  if (!place) throw RequestError(session.in_language(kNowhere, arguments.reference));
+  if (place->other_file) return in_other_file(session, *place->other_file);
+  const dap::ClientProfile& client = session.client();
+  Json json = {{"source", session.source()}, {"line", client.to_client_line(place->line)}};
+  if (!place->word) return json;
+  const std::string_view text = debuggee.text().line(place->line);
+  json["column"] = client.to_client_column(text::column_of(text, place->word->begin) - 1);
+  json["endLine"] = json["line"];
+  json["endColumn"] = client.to_client_column(text::column_of(text, place->word->end) - 1);
+  return json;
 }
 
 extern const DebugRequest locations = on<&answer_locations>("locations");

@@ -1,6 +1,8 @@
 #include "debugger/session/backward_search.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "debugger/debuggee/block_effect.h"
 
@@ -24,7 +26,7 @@ BackwardSearch::BackwardSearch(SessionState& state)
 
 std::optional<BackwardSearch::Hit> BackwardSearch::search_window() {
   const bool plans_motions = state_.exception_filters.judge_motions(state_.debuggee->machine());
-  const bool looks_into_blocks = watches_blocks(state_);
+  const bool looks_into_blocks = state_.block_watch().is_on();
   const std::uint64_t window = plans_motions || looks_into_blocks ? kMotionWindow : kWindow;
   const std::uint64_t from = searched_from_ > window ? searched_from_ - window : 0;
   std::optional<Hit> last;
@@ -56,16 +58,19 @@ std::optional<std::uint64_t> BackwardSearch::find_overtravel_from(std::uint64_t 
 /// The last moment within one of the blocks at which a run stops. In the block where the search began, it is before
 /// that.
 std::optional<BackwardSearch::Hit> BackwardSearch::find_moment_from(std::uint64_t block) const {
+  const breakpoints::BlockWatch watch = state_.block_watch();
   std::optional<Hit> last;
   state_.debuggee->find_simulated_back(block, searched_from_, [&](simulation::Simulation& simulation) {
     const simulation::Simulation before = simulation;
-    std::vector<InnerMoment> moments = pass_block(state_, simulation);
+    std::vector<breakpoints::InnerMoment> moments = watch.pass_block(simulation);
     for (; !moments.empty(); moments.pop_back()) {
-      InnerMoment& moment = moments.back();
+      breakpoints::InnerMoment& moment = moments.back();
       if (before.blocks() + 1 >= start_ && !(moment.time < start_time_)) continue;
       simulation::Simulation there = before;
       moment.time > there.time() ? there.advance_in_block(moment.time) : there.step_instruction();
-      if (!judge_moment(moment, state_, there, before.blocks(), breakpoints::RunDirection::Backward).stops()) continue;
+      const auto verdict = watch.judge(moment, state_.moment_of(there), before.blocks(),
+                                       breakpoints::RunDirection::Backward, state_.language());
+      if (!verdict.stops()) continue;
       last = Hit{.block = before.blocks(), .moment = std::move(moment)};
       return true;
     }

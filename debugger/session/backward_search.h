@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "debugger/session/inner_moments.h"
 #include "debugger/session/session_state.h"
 
 namespace isocnc::session {
@@ -13,9 +12,10 @@ namespace isocnc::session {
 class BackwardSearch {
  public:
   struct Hit {
-    std::uint64_t block = 0;                 ///< Blocks executed before the place.
-    bool is_change = false;                  ///< A watched value has changed in the block before.
-    std::optional<InnerMoment> moment = {};  ///< The place within the block that comes next; none for its start.
+    std::uint64_t block = 0;  ///< Blocks executed before the place.
+    bool is_change = false;   ///< A watched value has changed in the block before.
+    std::optional<breakpoints::InnerMoment> moment =
+        {};  ///< The place within the block that comes next; none for its start.
   };
 
   /// From the present of the debuggee. Keeps a reference to the state.

@@ -162,10 +162,10 @@ std::uint64_t RunLoop::advance(const std::function<void(debuggee::Debuggee& debu
   }
   const std::size_t line = before.line();
   stop_check_.start_block();
-  const debuggee::Journal::Snapshot from(before.run());
+  const debuggee::Journal::ModesAndValues from(before.run());
   move(*state_.debuggee);
   const simulation::Simulation& after = state_.debuggee->present();
-  state_.journal.take(block, line, from, debuggee::Journal::Snapshot(after.run()), after.runner().events());
+  state_.journal.take(block, line, from, debuggee::Journal::ModesAndValues(after.run()), after.runner().events());
   notifier_.report_events(after.runner().events());
   return block;
 }
@@ -275,10 +275,10 @@ bool RunLoop::pass_block() {
   const std::uint64_t block = present.blocks();
   const std::size_t line = present.line();
   if (present.has_ended() || (!is_in_block && line >= target_line_)) return false;
-  const debuggee::Journal::Snapshot from(present.run());
+  const debuggee::Journal::ModesAndValues from(present.run());
   state_.debuggee->step_block();
   if (!is_in_block)
-    state_.journal.take(block, line, from, debuggee::Journal::Snapshot(present.run()), present.runner().events());
+    state_.journal.take(block, line, from, debuggee::Journal::ModesAndValues(present.run()), present.runner().events());
   return true;
 }
 

@@ -11,6 +11,7 @@
 
 #include "debugger/breakpoints/source_breakpoint.h"
 #include "debugger/dap/request_error.h"
+#include "debugger/expressions/locations.h"
 #include "debugger/session/notifier.h"
 #include "debugger/session/run_loop.h"
 #include "debugger/session/session_state.h"
@@ -59,6 +60,10 @@ class Session : public expressions::Controls {
   const debuggee::Surroundings& surroundings() const { return *state_.surroundings; }
   const debuggee::Journal& journal() const { return state_.journal; }
   expressions::Moment moment() const;
+  /// See expressions::location_of().
+  std::int64_t location_of(const expressions::Quantity& quantity) const {
+    return expressions::location_of(quantity, journal(), debuggee().present());
+  }
   /// Reason of the present stop, where it is an exception.
   const std::optional<breakpoints::Exception>& exception() const { return state_.exception; }
   bool is_program(const std::filesystem::path& file) const { return state_.is_program(file); }

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "debugger/breakpoints/block_watch.h"
 #include "debugger/breakpoints/breakpoints.h"
 #include "debugger/breakpoints/exception_filters.h"
 #include "debugger/dap/client.h"
@@ -38,6 +39,8 @@ struct SessionState {
   expressions::Moment moment() const;
   /// A moment of the debuggee's run, which a simulation has reached.
   expressions::Moment moment_of(const simulation::Simulation& simulation) const;
+  /// Where a run of the debuggee, which is launched, stops within blocks.
+  breakpoints::BlockWatch block_watch() { return {exception_filters, breakpoints, *surroundings}; }
   /// Whether the file is that of the program, even if it has been removed since.
   bool is_program(const std::filesystem::path& file) const;
   /// The program, as a `Source` of the protocol.

@@ -31,15 +31,15 @@ std::optional<Stop> StopCheck::judge_block() {
 }
 
 std::optional<double> StopCheck::next_moment() {
-  if (state_.launch_options.no_debug || !watches_blocks(state_)) return std::nullopt;
+  const breakpoints::BlockWatch watch = state_.block_watch();
+  if (state_.launch_options.no_debug || !watch.is_on()) return std::nullopt;
   const simulation::Simulation& present = state_.debuggee->present();
   const std::uint64_t block = present.blocks() - (present.is_in_block() ? 1 : 0);
-  const std::uint64_t revision = state_.exception_filters.revision() + state_.breakpoints.revision();
-  if (!coming_ || coming_->block != block || coming_->revision != revision) {
+  if (!coming_ || coming_->block != block || coming_->revision != watch.revision()) {
     simulation::Simulation ahead = present;
-    std::vector<InnerMoment> moments = pass_block(state_, ahead);
+    std::vector<breakpoints::InnerMoment> moments = watch.pass_block(ahead);
     coming_ = {.block = block,
-               .revision = revision,
+               .revision = watch.revision(),
                .moments = {std::make_move_iterator(moments.begin()), std::make_move_iterator(moments.end())}};
   }
   return coming_->moments.empty() ? std::nullopt : std::optional(coming_->moments.front().time);
@@ -48,11 +48,11 @@ std::optional<double> StopCheck::next_moment() {
 /// Several may be one moment.
 std::optional<Stop> StopCheck::at_moment() {
   const simulation::Simulation& present = state_.debuggee->present();
-  MomentVerdict all;
-  std::deque<InnerMoment>& moments = coming_->moments;
+  breakpoints::MomentVerdict all;
+  auto& moments = coming_->moments;
   for (; !moments.empty() && moments.front().time <= present.time(); moments.pop_front()) {
-    MomentVerdict each =
-        judge_moment(moments.front(), state_, present, coming_->block, breakpoints::RunDirection::Forward);
+    breakpoints::MomentVerdict each = state_.block_watch().judge(moments.front(), state_.moment(), coming_->block,
+                                                                 breakpoints::RunDirection::Forward, state_.language());
     if (all.exception && each.exception) all.exception->message += "; " + each.exception->message;
     if (!all.exception) all.exception = std::move(each.exception);
     all.outcome.stopped.insert(all.outcome.stopped.end(), each.outcome.stopped.begin(), each.outcome.stopped.end());
@@ -62,11 +62,12 @@ std::optional<Stop> StopCheck::at_moment() {
   return stop_at(std::move(all));
 }
 
-Stop StopCheck::at_moment(const InnerMoment& moment, std::uint64_t block) {
-  return stop_at(judge_moment(moment, state_, state_.debuggee->present(), block, breakpoints::RunDirection::Backward));
+Stop StopCheck::at_moment(const breakpoints::InnerMoment& moment, std::uint64_t block) {
+  return stop_at(state_.block_watch().judge(moment, state_.moment(), block, breakpoints::RunDirection::Backward,
+                                            state_.language()));
 }
 
-Stop StopCheck::stop_at(MomentVerdict verdict) {
+Stop StopCheck::stop_at(breakpoints::MomentVerdict verdict) {
   if (verdict.exception) return stop_at(std::move(*verdict.exception));
   Stop stop{.reason = "data breakpoint", .details = {{"hitBreakpointIds", verdict.outcome.stopped}}};
   if (!verdict.outcome.stopped.empty())

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string_view>
 
-#include "debugger/session/inner_moments.h"
 #include "debugger/session/notifier.h"
 #include "debugger/session/session_state.h"
 
@@ -40,7 +39,7 @@ class StopCheck {
   /// The run has come to that moment.
   std::optional<Stop> at_moment();
   /// The run has come to this moment, going back.
-  Stop at_moment(const InnerMoment& moment, std::uint64_t block);
+  Stop at_moment(const breakpoints::InnerMoment& moment, std::uint64_t block);
 
   /// A block begins: takes the values that data breakpoints watch.
   void start_block();
@@ -62,7 +61,7 @@ class StopCheck {
   struct ComingMoments {
     std::uint64_t block = 0;
     std::uint64_t revision = 0;  ///< Of what stops the run.
-    std::deque<InnerMoment> moments;
+    std::deque<breakpoints::InnerMoment> moments;
   };
 
   /// The machine may have been moved, or changed.
@@ -75,7 +74,7 @@ class StopCheck {
   std::optional<Stop> judge_breakpoints();
   std::optional<Stop> judge_exceptions();
   Stop stop_at(breakpoints::Exception exception);
-  Stop stop_at(MomentVerdict verdict);
+  Stop stop_at(breakpoints::MomentVerdict verdict);
   std::optional<breakpoints::Exception> find_exception() const;
   std::optional<breakpoints::Exception> find_coming_overtravel() const;
   void report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::size_t line);

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "debugger/session/locations.h"
 #include "interpreter/text/unicode.h"
 
 namespace isocnc::session {
@@ -110,7 +109,7 @@ class Listing {
                          .value = show(quantity->at(moment_)),
                          .type = in_language(quantity->meaning) + unit,
                          .evaluate_name = std::string(quantity->name),
-                         .location = location_of(session_, *quantity),
+                         .location = session_.location_of(*quantity),
                          .quantity = quantity->set != nullptr ? quantity : nullptr});
   }
 
@@ -255,7 +254,7 @@ class Listing {
         fmt::format("X {} Y {} Z {}", show_length(point.x()), show_length(point.y()), show_length(point.z())), "mm");
     if (each.described.file.empty()) return;
     add(in_language(kDescribed), fmt::format("{}:{}", text::printable(each.described.file), each.described.line + 1));
-    variables.back().location = location_of_neighbor(place);
+    variables.back().location = expressions::location_of_neighbor(place);
   }
 
  private:
@@ -319,7 +318,7 @@ class Listing {
     variables.push_back({.name = in_language(names.name),
                          .value = value,
                          .evaluate_name = std::string(names.variable),
-                         .location = location_of(session_, *expressions::find_quantity(names.variable))});
+                         .location = session_.location_of(*expressions::find_quantity(names.variable))});
   }
 
   const Session& session_;
