@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include "interpreter/stock/stock.h"
+#include "interpreter/stock/unit_sweep.h"
+
+namespace isocnc::stock {
+
+using geometry::Vec2;
+using geometry::Vec3;
+
+namespace {
+
+/// The units of each tile, in order.
+class TileBins {
+ public:
+  TileBins(std::span<const UnitSweep> units, const DexelGrid& grid) : grid_(grid) {
+    starts_.assign(static_cast<std::size_t>(grid.tile_columns()) * static_cast<std::size_t>(grid.tile_rows()) + 1, 0);
+    for_each(units, [&](std::size_t tile, std::size_t) { ++starts_[tile + 1]; });
+    for (std::size_t tile = 1; tile < starts_.size(); ++tile) {
+      if (starts_[tile] > 0) {
+        const int index = static_cast<int>(tile) - 1;
+        tiles_.push_back({index % grid.tile_columns(), index / grid.tile_columns()});
+      }
+      starts_[tile] += starts_[tile - 1];
+    }
+    units_.resize(starts_.back());
+    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
+    for_each(units,
+             [&](std::size_t tile, std::size_t unit) { units_[next[tile]++] = static_cast<std::uint32_t>(unit); });
+  }
+
+  /// Those with units, in order.
+  std::span<const TileIndex> tiles() const { return tiles_; }
+  std::size_t size() const { return units_.size(); }
+  /// Where the units of a tile start among all.
+  std::size_t start_of(const TileIndex& tile) const { return starts_[number_of(tile)]; }
+  std::span<const std::uint32_t> units_of(const TileIndex& tile) const {
+    const std::size_t start = start_of(tile);
+    return std::span(units_).subspan(start, starts_[number_of(tile) + 1] - start);
+  }
+
+ private:
+  std::size_t number_of(const TileIndex& tile) const {
+    return static_cast<std::size_t>(tile.row * grid_.tile_columns() + tile.column);
+  }
+
+  template <class Use>
+  void for_each(std::span<const UnitSweep> units, Use&& use) const {
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const solids::BoundingBox& box = units[i].bounds;
+      const int first_column = grid_.first_column(box.min().x()) / Tile::kSize;
+      const int first_row = grid_.first_row(box.min().y()) / Tile::kSize;
+      const int columns = (grid_.first_column(box.max().x()) + Tile::kSize - 1) / Tile::kSize;
+      const int rows = (grid_.first_row(box.max().y()) + Tile::kSize - 1) / Tile::kSize;
+      const bool is_long = (columns - first_column) * (rows - first_row) > 4;
+      for (int row = first_row; row < rows; ++row)
+        for (int column = first_column; column < columns; ++column)
+          if (!is_long || may_touch(units[i], {column, row})) use(number_of({column, row}), i);
+    }
+  }
+
+  /// False only if a line surely passes a tile.
+  bool may_touch(const UnitSweep& unit, const TileIndex& tile) const {
+    const auto* line = std::get_if<UprightLine>(&unit.motion);
+    if (!line) return true;
+    const Vec2 size = Tile::kSize * grid_.spacing;
+    const Vec2 center = grid_.first + Vec2(tile.column * size.x(), tile.row * size.y()) + size / 2;
+    const double radius = (unit.bounds.max().x() - std::max(line->from.x(), line->to.x())) + size.norm() / 2;
+    const Vec2 along = (line->to - line->from).head<2>();
+    const Vec2 to_center = center - line->from.head<2>();
+    const double share =
+        along.squaredNorm() > 0 ? std::clamp(to_center.dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+    return (to_center - share * along).squaredNorm() <= radius * radius;
+  }
+
+  const DexelGrid& grid_;
+  std::vector<std::size_t> starts_;
+  std::vector<std::uint32_t> units_;
+  std::vector<TileIndex> tiles_;
+};
+
+double tilt_of(const Sweep& sweep) {
+  if (const auto* straight = std::get_if<StraightPath>(&sweep.path)) return straight->from.axis.z();
+  if (const auto* helix = std::get_if<HelixPath>(&sweep.path)) return helix->axis.z();
+  const TurningPath& turning = std::get<TurningPath>(sweep.path);
+  return std::max(std::abs(turning.from.axis.z()), std::abs(turning.to.axis.z()));
+}
+
+/// Adds what one unit has met in one tile.
+void add(const DexelCount& count, const DexelGrid& part, double cell, double tilt, SweepOutcome& outcome) {
+  outcome.volume += count.length * cell;
+  const double depth = static_cast<double>(count.depth) * tilt;
+  if (count.row < 0 || depth < outcome.depth || (depth == outcome.depth && outcome.depth > 0)) return;
+  outcome.depth = depth;
+  outcome.point = {part.x(count.column), part.y(count.row), count.bottom};
+}
+
+}  // namespace
+
+std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Workers& workers) {
+  std::vector<SweepOutcome> outcomes(sweeps.size());
+  const UnitSweeps divided(sweeps, spacing());
+  const TileBins bins(divided.units(), grid());
+  std::vector<DexelCount> counts(bins.size());
+  own(bins.tiles());
+
+  const auto work_on = [&](const TileIndex& index) {
+    TilePointer& pointer = tile_to_cut(index);
+    if (pointer->is_empty()) return;
+    const DexelGrid part = grid().tile(index.column, index.row);
+    TilePointer changed;  // Once there is a cut.
+    const auto units = bins.units_of(index);
+    bool is_cut = false;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const UnitSweep& unit = divided.units()[units[i]];
+      const Sweep& sweep = sweeps[unit.sweep];
+      const Tile& present = changed ? *changed : *pointer;
+      if (!(unit.bounds.min().z() < present.ceiling() && unit.bounds.max().z() > present.floor())) continue;
+      DexelCount& count = counts[bins.start_of(index) + i];
+      if (sweep.purpose == SweepPurpose::Ask) {
+        DexelSink sink(present, part);
+        divided.apply(unit, sink);
+        count = sink.count();
+        continue;
+      }
+      if (!changed) {
+        changed = !pointer->is_uniform() && pointer.use_count() == 1 ? pointer : std::make_shared<Tile>(*pointer);
+        std::atomic_thread_fence(std::memory_order_acquire);
+        changed->prepare();
+      }
+      DexelSink sink(*changed, part, sweep.tag);
+      divided.apply(unit, sink);
+      count = sink.count();
+      is_cut |= count.length > 0;
+    }
+    if (!is_cut) return;
+    changed->tighten();
+    pointer = std::move(changed);
+  };
+
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < bins.tiles().size(); i = next++) work_on(bins.tiles()[i]);
+  };
+  if (workers) workers(work);
+  work();
+
+  // In the order of the tiles, whichever thread was at them.
+  for (const TileIndex& index : bins.tiles()) {
+    const DexelGrid part = grid().tile(index.column, index.row);
+    const auto units = bins.units_of(index);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const UnitSweep& unit = divided.units()[units[i]];
+      const DexelCount& count = counts[bins.start_of(index) + i];
+      if (count.row >= 0) add(count, part, grid().cell(), std::abs(tilt_of(sweeps[unit.sweep])), outcomes[unit.sweep]);
+    }
+  }
+  return outcomes;
+}
+
+}  // namespace isocnc::stock

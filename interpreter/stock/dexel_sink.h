@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+
+#include "interpreter/stock/grid.h"
+
+namespace isocnc::stock {
+
+/// Takes the intervals of dexels of one tile that a sweep covers, and cuts them, or only counts the material in them.
+class DexelSink {
+ public:
+  DexelSink(Tile& tile, const DexelGrid& grid, CutTag tag) : grid_(grid), tile_(tile), cut_(&tile), tag_(tag) {}
+  DexelSink(const Tile& tile, const DexelGrid& grid) : grid_(grid), tile_(tile) {}
+
+  const DexelGrid& grid() const { return grid_; }
+  double floor() const { return tile_.floor(); }
+  double ceiling() const { return tile_.ceiling(); }
+  bool has_material_in(const HeightInterval& z) const { return z.bottom < ceiling() && z.top > floor(); }
+  bool cuts() const { return cut_ != nullptr; }
+  const DexelCount& count() const { return count_; }
+
+  /// The columns [first, last) of a row, all with the same interval.
+  void take_run(int row, int first, int last, const HeightInterval& z) {
+    if (first >= last || z.is_empty()) return;
+    if (cut_) {
+      cut_->cut_run(row, first, last, bottom_of(z.bottom), top_of(z.top), tag_, count_);
+      return;
+    }
+    for (int column = first; column < last; ++column) set(column - first, z);
+    take_row(row, first, last);
+  }
+
+  /// The columns [first, last) of a row, each with the interval that has been set for it.
+  void take_row(int row, int first, int last) {
+    if (first >= last) return;
+    if (cut_) {
+      cut_->cut_row(row, first, last, bottoms_.data(), tops_.data(), tag_, count_);
+    } else {
+      tile_.meet_row(row, first, last, bottoms_.data(), tops_.data(), count_);
+    }
+  }
+  /// Sets the interval of the i-th column of the next row to be taken.
+  void set(int i, const HeightInterval& z) {
+    bottoms_[static_cast<std::size_t>(i)] = bottom_of(z.bottom);
+    tops_[static_cast<std::size_t>(i)] = top_of(z.top);
+  }
+  /// A further interval of one dexel. Leaves what has been set alone.
+  void take_apart(int row, int column, const HeightInterval& z) {
+    const float bottom = bottom_of(z.bottom);
+    const float top = top_of(z.top);
+    if (cut_) {
+      cut_->cut_row(row, column, column + 1, &bottom, &top, tag_, count_);
+    } else {
+      tile_.meet_row(row, column, column + 1, &bottom, &top, count_);
+    }
+  }
+  /// The same for many, by which loops over them become vectors: floats that are rounded already.
+  float* bottoms() { return bottoms_.data(); }
+  float* tops() { return tops_.data(); }
+
+ private:
+  static float bottom_of(double z) { return rounded_up(z); }
+  static float top_of(double z) { return rounded_down(z); }
+
+  const DexelGrid& grid_;
+  const Tile& tile_;
+  Tile* cut_ = nullptr;
+  CutTag tag_ = 0;
+  DexelCount count_;
+  std::array<float, Tile::kSize> bottoms_;
+  std::array<float, Tile::kSize> tops_;
+};
+
+}  // namespace isocnc::stock

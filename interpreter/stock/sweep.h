@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+#include "interpreter/geometry/helix.h"
+#include "interpreter/solids/revolved_body.h"
+#include "interpreter/stock/tile.h"
+
+namespace isocnc::stock {
+
+// Paths of a body, workpiece frame, mm: where its origin goes, and how its axis stands.
+
+/// A straight line with the axis at rest.
+struct StraightPath {
+  solids::AxisPlacement from;
+  geometry::Vec3 to = geometry::Vec3::Zero();
+};
+
+/// An arc or helix with the axis at rest.
+struct HelixPath {
+  geometry::Helix helix;
+  geometry::Vec3 axis = geometry::Vec3(0, 0, 1);  ///< Unit vector.
+};
+
+/// A straight line of the origin while the axis turns evenly, the shorter way, by less than half a turn. Both
+/// placements may have the same origin. A curved path is cut into such ones by the caller.
+struct TurningPath {
+  solids::AxisPlacement from;
+  solids::AxisPlacement to;
+};
+
+using SweepPath = std::variant<StraightPath, HelixPath, TurningPath>;
+
+enum class SweepPurpose : std::uint8_t {
+  Cut,  ///< Removes material.
+  Ask,  ///< Counts the material that is met, and leaves it.
+};
+
+/// A body along a piece of path. Values that are not finite, or above solids::kMaxCoordinate, make a sweep that does
+/// nothing.
+struct Sweep {
+  const solids::RevolvedBody* body = nullptr;  ///< Must outlive the call.
+  SweepPath path;
+  CutTag tag = 0;  ///< Below 0xFFFFFFFF.
+  SweepPurpose purpose = SweepPurpose::Cut;
+};
+
+/// What a sweep has removed, or met.
+struct SweepOutcome {
+  double volume = 0;  ///< mm^3
+  /// Greatest length of material in one dexel, taken along the axis of the body, mm: for a vertical axis the depth of
+  /// the cut, for another one its projection.
+  double depth = 0;
+  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Lower end of that material; of equal ones, the first in order.
+
+  /// Whether any material has been met or removed. A body that only touches the material does not meet it.
+  bool meets() const { return volume > 0; }
+};
+
+}  // namespace isocnc::stock

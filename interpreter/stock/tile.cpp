@@ -1,0 +1,295 @@
+#include "interpreter/stock/tile.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+
+namespace isocnc::stock {
+
+namespace {
+
+constexpr std::size_t kDexels = static_cast<std::size_t>(Tile::kSize) * Tile::kSize;
+constexpr CutTag kUncut = 0xFFFFFFFF;
+constexpr int kLanes = 8;
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+void note_deepest(DexelCount& count, int row, int column, float depth, float bottom) {
+  if (!(depth > count.depth)) return;
+  count.depth = depth;
+  count.row = row;
+  count.column = column;
+  count.bottom = bottom;
+}
+
+}  // namespace
+
+Tile::Tile(int columns, int rows, float bottom, float top)
+    : columns_(columns), rows_(rows), bottom_(bottom), floor_(bottom), ceiling_(std::max(bottom, top)) {}
+
+Tile::Tile(int columns, int rows, const std::vector<std::vector<HeightInterval>>& material)
+    : Tile(columns, rows, 0, 0) {
+  const auto first = std::find_if(material.begin(), material.end(), [](const auto& dexel) { return !dexel.empty(); });
+  if (first == material.end()) return;
+  bottom_ = static_cast<float>(first->back().bottom);
+  tops_.assign(kDexels, bottom_);
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column) {
+      const auto& dexel = material[static_cast<std::size_t>(row * columns_ + column)];
+      if (dexel.empty()) continue;
+      const std::size_t at = index(row, column);
+      set_bottom(at, static_cast<float>(dexel.back().bottom));
+      tops_[at] = static_cast<float>(dexel.back().top);
+      for (auto lower = dexel.rbegin() + 1; lower != dexel.rend(); ++lower)
+        insert_lower(row, {column, static_cast<float>(lower->bottom), static_cast<float>(lower->top)});
+    }
+  tighten();
+  if (!bottoms_.empty() || !lower_.empty()) return;
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column)
+      if (tops_[index(row, column)] != ceiling_) return;
+  tops_ = {};
+}
+
+std::size_t Tile::memory() const {
+  std::size_t bytes = sizeof(Tile) + (tops_.capacity() + bottoms_.capacity()) * sizeof(float) +
+                      tags_.capacity() * sizeof(CutTag) + lower_.capacity() * sizeof(LowerIntervals);
+  for (const LowerIntervals& row : lower_) bytes += row.capacity() * sizeof(LowerInterval);
+  return bytes;
+}
+
+double Tile::length() const {
+  if (is_uniform()) return static_cast<double>(ceiling_ - floor_) * columns_ * rows_;
+  double sum = 0;
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const std::size_t at = index(row, column);
+      sum += std::max(0.0F, tops_[at] - bottom_at(at));
+    }
+    if (has_lower(row))
+      for (const LowerInterval& interval : lower_[static_cast<std::size_t>(row)]) sum += interval.top - interval.bottom;
+  }
+  return sum;
+}
+
+std::vector<HeightInterval> Tile::intervals(int row, int column) const {
+  std::vector<HeightInterval> all;
+  if (is_uniform()) {
+    if (!is_empty()) all.push_back({floor_, ceiling_});
+    return all;
+  }
+  const std::size_t at = index(row, column);
+  if (has_lower(row))
+    for (const LowerInterval& interval : lower_[static_cast<std::size_t>(row)])
+      if (interval.column == column) all.insert(all.begin(), {interval.bottom, interval.top});
+  if (tops_[at] > bottom_at(at)) all.push_back({bottom_at(at), tops_[at]});
+  return all;
+}
+
+std::optional<float> Tile::top(int row, int column) const {
+  if (is_uniform()) return is_empty() ? std::nullopt : std::optional(ceiling_);
+  const std::size_t at = index(row, column);
+  return tops_[at] > bottom_at(at) ? std::optional(tops_[at]) : std::nullopt;
+}
+
+std::optional<CutTag> Tile::cut_by(int row, int column) const {
+  if (tags_.empty() || tags_[index(row, column)] == kUncut) return {};
+  return tags_[index(row, column)];
+}
+
+void Tile::prepare() {
+  if (tops_.empty()) tops_.assign(kDexels, ceiling_);
+  if (tags_.empty()) tags_.assign(kDexels, kUncut);
+}
+
+void Tile::tighten() {
+  float low = std::numeric_limits<float>::infinity();
+  float high = -low;
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const std::size_t at = index(row, column);
+      if (!(tops_[at] > bottom_at(at))) continue;
+      high = std::max(high, tops_[at]);
+      low = std::min(low, bottom_at(at));
+    }
+    if (has_lower(row))
+      for (const LowerInterval& interval : lower_[static_cast<std::size_t>(row)]) low = std::min(low, interval.bottom);
+  }
+  floor_ = low < high ? low : bottom_;
+  ceiling_ = low < high ? high : bottom_;
+}
+
+void Tile::set_bottom(std::size_t index, float bottom) {
+  if (bottoms_.empty()) {
+    if (bottom == bottom_) return;
+    bottoms_.assign(kDexels, bottom_);
+  }
+  bottoms_[index] = bottom;
+}
+
+void Tile::insert_lower(int row, const LowerInterval& interval) {
+  if (lower_.empty()) lower_.resize(kSize);
+  LowerIntervals& all = lower_[static_cast<std::size_t>(row)];
+  all.insert(std::upper_bound(all.begin(), all.end(), interval,
+                              [](const LowerInterval& left, const LowerInterval& right) {
+                                return left.column != right.column ? left.column < right.column : left.top > right.top;
+                              }),
+             interval);
+}
+
+/// One interval in the dexel; the frequent cases first.
+void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, DexelCount& count) {
+  if (has_lower(row)) return cut_dexel_of_many(row, column, bottom, top, tag, count);
+  const std::size_t at = index(row, column);
+  const float old_top = tops_[at];
+  const float old_bottom = bottom_at(at);
+  bottom = std::max(bottom, old_bottom);
+  top = std::min(top, old_top);
+  if (!(bottom < top)) return;
+  if (bottom - old_bottom < kSkin) bottom = old_bottom;
+  if (old_top - top < kSkin) top = old_top;
+  count.length += top - bottom;
+  note_deepest(count, row, column, top - bottom, bottom);
+  tags_[at] = tag;
+  if (top == old_top) {
+    tops_[at] = bottom;
+  } else {
+    set_bottom(at, top);
+    if (bottom > old_bottom) insert_lower(row, {column, old_bottom, bottom});
+  }
+}
+
+/// Several intervals in the dexel, or in others of its row.
+void Tile::cut_dexel_of_many(int row, int column, float bottom, float top, CutTag tag, DexelCount& count) {
+  const std::size_t at = index(row, column);
+  LowerIntervals& all = lower_[static_cast<std::size_t>(row)];
+  const auto is_before = [](const LowerInterval& interval, int wanted) { return interval.column < wanted; };
+  const auto first = std::lower_bound(all.begin(), all.end(), column, is_before);
+  const auto last = std::lower_bound(first, all.end(), column + 1, is_before);
+  LowerIntervals left;  // From the highest one down.
+  float removed = 0;
+  float lowest = top;
+  const auto cut = [&](float old_bottom, float old_top) {
+    float cut_bottom = std::max(bottom, old_bottom);
+    float cut_top = std::min(top, old_top);
+    if (!(cut_bottom < cut_top)) {
+      if (old_bottom < old_top) left.push_back({column, old_bottom, old_top});
+      return;
+    }
+    if (cut_bottom - old_bottom < kSkin) cut_bottom = old_bottom;
+    if (old_top - cut_top < kSkin) cut_top = old_top;
+    removed += cut_top - cut_bottom;
+    lowest = cut_bottom;
+    if (cut_top < old_top) left.push_back({column, cut_top, old_top});
+    if (old_bottom < cut_bottom) left.push_back({column, old_bottom, cut_bottom});
+  };
+  cut(bottom_at(at), tops_[at]);
+  for (auto each = first; each != last; ++each) cut(each->bottom, each->top);
+  if (!(removed > 0)) return;
+  count.length += removed;
+  note_deepest(count, row, column, removed, lowest);
+  tags_[at] = tag;
+  const auto place = all.erase(first, last);
+  if (left.empty()) {
+    tops_[at] = bottom_at(at);
+    return;
+  }
+  tops_[at] = left.front().top;
+  set_bottom(at, left.front().bottom);
+  all.insert(place, left.begin() + 1, left.end());
+}
+
+/// For cuts that reach above all material of a row in which no dexel has a second interval. `bottoms` holds one bound
+/// for each dexel, or is null where `lowest` is that of all of them.
+void Tile::cut_from_above(int row, int first, int last, const float* bottoms, float lowest, CutTag tag,
+                          DexelCount& count) {
+  const std::size_t start = index(row, first);
+  float* const tops = tops_.data() + start;
+  CutTag* const tags = tags_.data() + start;
+  const float* const floors = bottoms_.empty() ? nullptr : bottoms_.data() + start;
+  const int size = last - first;
+  Lanes sum = Lanes::Zero();
+  const auto note = [&](int from, int number, const float* removed, const float* after) {
+    for (int i = 0; i < number; ++i) note_deepest(count, row, first + from + i, removed[i], after[i]);
+  };
+  int i = 0;
+  for (; i + kLanes <= size; i += kLanes) {
+    Eigen::Map<Lanes> top(tops + i);
+    Lanes bound = bottoms ? Lanes(Eigen::Map<const Lanes>(bottoms + i)) : Lanes(Lanes::Constant(lowest));
+    if (!((top - bound).maxCoeff() > 0)) continue;
+    bound = floors ? Lanes(bound.max(Eigen::Map<const Lanes>(floors + i))) : Lanes(bound.max(bottom_));
+    const Lanes after = top.min(bound);
+    const Lanes removed = top - after;
+    sum += removed;
+    top = after;
+    const float* const lane = removed.data();
+    CutTag* const tag_lane = tags + i;
+    for (int k = 0; k < kLanes; ++k) tag_lane[k] = lane[k] > 0 ? tag : tag_lane[k];
+    if (removed.maxCoeff() > count.depth) note(i, kLanes, removed.data(), after.data());
+  }
+  float rest = 0;
+  for (; i < size; ++i) {
+    const float bound = std::max(bottoms ? bottoms[i] : lowest, floors ? floors[i] : bottom_);
+    if (!(tops[i] > bound)) continue;
+    const float removed = tops[i] - bound;
+    rest += removed;
+    tops[i] = bound;
+    tags[i] = tag;
+    note(i, 1, &removed, &bound);
+  }
+  for (int k = 0; k < kLanes; ++k) rest += sum[k];
+  count.length += rest;
+}
+
+void Tile::cut_run(int row, int first, int last, float bottom, float top, CutTag tag, DexelCount& count) {
+  if (!(bottom < top) || bottom >= ceiling_ || top <= floor_) return;
+  if (top >= ceiling_ && !has_lower(row)) return cut_from_above(row, first, last, nullptr, bottom, tag, count);
+  for (int column = first; column < last; ++column) cut_dexel(row, column, bottom, top, tag, count);
+}
+
+void Tile::cut_row(int row, int first, int last, const float* bottoms, const float* tops, CutTag tag,
+                   DexelCount& count) {
+  const int size = last - first;
+  if (!has_lower(row)) {
+    bool is_above = true;
+    for (int i = 0; i < size; ++i) is_above &= tops[i] >= ceiling_ || bottoms[i] >= tops[i];
+    if (is_above) {
+      // An empty interval has to leave its dexel alone.
+      std::array<float, kSize> bounds;
+      for (int i = 0; i < size; ++i)
+        bounds[static_cast<std::size_t>(i)] =
+            bottoms[i] < tops[i] ? bottoms[i] : std::numeric_limits<float>::infinity();
+      return cut_from_above(row, first, last, bounds.data(), 0, tag, count);
+    }
+  }
+  for (int i = 0; i < size; ++i)
+    if (bottoms[i] < tops[i]) cut_dexel(row, first + i, bottoms[i], tops[i], tag, count);
+}
+
+void Tile::meet_dexel(int row, int column, float bottom, float top, DexelCount& count) const {
+  float met = 0;
+  float lowest = top;
+  const auto meet = [&](float from, float to) {
+    const float overlap = std::min(top, to) - std::max(bottom, from);
+    if (!(overlap > kTouch)) return;
+    met += overlap;
+    lowest = std::max(bottom, from);
+  };
+  if (is_uniform()) {
+    meet(floor_, ceiling_);
+  } else {
+    const std::size_t at = index(row, column);
+    meet(bottom_at(at), tops_[at]);
+    if (has_lower(row))
+      for (const LowerInterval& interval : lower_[static_cast<std::size_t>(row)])
+        if (interval.column == column) meet(interval.bottom, interval.top);
+  }
+  count.length += met;
+  note_deepest(count, row, column, met, lowest);
+}
+
+void Tile::meet_row(int row, int first, int last, const float* bottoms, const float* tops, DexelCount& count) const {
+  for (int i = 0; i < last - first; ++i)
+    if (bottoms[i] < tops[i] && bottoms[i] < ceiling_ && tops[i] > floor_)
+      meet_dexel(row, first + i, bottoms[i], tops[i], count);
+}
+
+}  // namespace isocnc::stock

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "interpreter/stock/height_interval.h"
+
+namespace isocnc::stock {
+
+/// Says which sweep cut a dexel last. The module gives it no meaning.
+using CutTag = std::uint32_t;
+
+/// What one sweep removes from the dexels of a tile, or meets in them.
+struct DexelCount {
+  double length = 0;  ///< Sum over the dexels, mm.
+  float depth = 0;    ///< Greatest length in one dexel, mm.
+  int row = -1;       ///< Dexel of the greatest length.
+  int column = -1;    ///< Dexel of the greatest length.
+  float bottom = 0;   ///< Lowest end of what is removed or met in that dexel, mm.
+};
+
+/// A square of 128 x 128 vertical dexels: lines along which the stock is exact. A dexel holds its material as
+/// intervals of z, mm, from the highest one down. Heights are floats, so below 512 mm the step is 2^-15 mm.
+///
+/// A tile whose dexels are all the same holds two numbers and no arrays. Memory: 4 bytes a dexel for the upper ends, 4
+/// for the last cuts once there is one, 4 for the lower ends once they differ, and 12 for each further interval.
+class Tile {
+ public:
+  static constexpr int kSize = 128;  ///< Dexels in a row, and rows.
+
+  /// A tile whose dexels all have one interval. A tile at the border of the stock has fewer columns or rows.
+  Tile(int columns, int rows, float bottom, float top);
+  /// A tile with any material: `material` holds the intervals of each dexel, row by row, columns * rows of them, each
+  /// from the lowest interval up.
+  Tile(int columns, int rows, const std::vector<std::vector<HeightInterval>>& material);
+
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  bool is_uniform() const { return tops_.empty(); }
+  bool is_empty() const { return !(floor_ < ceiling_); }
+  float floor() const { return floor_; }      ///< No material below, mm.
+  float ceiling() const { return ceiling_; }  ///< No material above, mm.
+
+  std::size_t memory() const;  ///< Bytes.
+  double length() const;       ///< Sum of the lengths of all intervals, mm.
+
+  /// The intervals of a dexel, from the lowest one up.
+  std::vector<HeightInterval> intervals(int row, int column) const;
+  /// The upper end of a dexel's material, mm; no value if it has none.
+  std::optional<float> top(int row, int column) const;
+  /// Who cut the dexel last; no value if nobody did.
+  std::optional<CutTag> cut_by(int row, int column) const;
+
+  /// Makes room for cuts. Required before them.
+  void prepare();
+  /// Tightens `floor` and `ceiling` after cuts.
+  void tighten();
+
+  /// Removes [bottom, top] from the columns [first, last) of a row.
+  void cut_run(int row, int first, int last, float bottom, float top, CutTag tag, DexelCount& count);
+  /// The same, with an interval of its own for each dexel: `bottoms` and `tops` are those of the columns from `first`.
+  /// A dexel with bottom >= top is left alone.
+  void cut_row(int row, int first, int last, const float* bottoms, const float* tops, CutTag tag, DexelCount& count);
+
+  /// Counts what of the material of a row is in [bottom, top]. Overlaps shorter than kTouch are none.
+  void meet_row(int row, int first, int last, const float* bottoms, const float* tops, DexelCount& count) const;
+
+  /// Bodies that touch the material meet it up to this length, mm, by rounding alone.
+  static constexpr float kTouch = 0.001F;
+  /// A skin thinner than this, mm, that a cut would leave between itself and a free end is cut, too: rounding leaves
+  /// such skins between two pieces of one body.
+  static constexpr float kSkin = 0.0002F;
+
+ private:
+  struct LowerInterval {
+    int column;
+    float bottom;
+    float top;
+  };
+  using LowerIntervals = std::vector<LowerInterval>;  ///< By column, then from the highest one down.
+
+  static std::size_t index(int row, int column) {
+    return static_cast<std::size_t>(row) * kSize + static_cast<std::size_t>(column);
+  }
+  float bottom_at(std::size_t index) const { return bottoms_.empty() ? bottom_ : bottoms_[index]; }
+  bool has_lower(int row) const { return !lower_.empty() && !lower_[static_cast<std::size_t>(row)].empty(); }
+  void cut_dexel(int row, int column, float bottom, float top, CutTag tag, DexelCount& count);
+  void cut_dexel_of_many(int row, int column, float bottom, float top, CutTag tag, DexelCount& count);
+  void set_bottom(std::size_t index, float bottom);
+  void insert_lower(int row, const LowerInterval& interval);
+  void cut_from_above(int row, int first, int last, const float* bottoms, float lowest, CutTag tag, DexelCount& count);
+  void meet_dexel(int row, int column, float bottom, float top, DexelCount& count) const;
+
+  int columns_;
+  int rows_;
+  float bottom_;  ///< Of the highest interval of every dexel while there are no `bottoms_`.
+  float floor_;
+  float ceiling_;
+  std::vector<float> tops_;            ///< Of the highest interval; its bottom where there is no material.
+  std::vector<float> bottoms_;         ///< Of the highest interval, once they differ.
+  std::vector<CutTag> tags_;           ///< Once there is a cut.
+  std::vector<LowerIntervals> lower_;  ///< Further intervals of each row, once there are any.
+};
+
+}  // namespace isocnc::stock

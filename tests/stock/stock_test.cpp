@@ -1,0 +1,300 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <thread>
+
+#include "cuts.h"
+#include "tests/support/random.h"
+
+/// The stock as a value: copies, questions, threads, and sweeps that make no sense.
+namespace isocnc::stock::cuts {
+namespace {
+
+using support::Random;
+
+Workers threads(int count) {
+  return [count](const std::function<void()>& work) {
+    std::vector<std::thread> all;
+    for (int i = 0; i < count; ++i) all.emplace_back(work);
+    for (std::thread& thread : all) thread.join();
+  };
+}
+
+/// Both stocks are the same to the last bit.
+void expect_same(const Stock& one, const Stock& other) {
+  ASSERT_EQ(one.grid().columns, other.grid().columns);
+  ASSERT_EQ(one.grid().rows, other.grid().rows);
+  for (int row = 0; row < one.grid().rows; ++row)
+    for (int column = 0; column < one.grid().columns; ++column) {
+      const double x = one.grid().x(column);
+      const double y = one.grid().y(row);
+      const std::vector<HeightInterval> of_one = one.intervals_at(x, y);
+      const std::vector<HeightInterval> of_other = other.intervals_at(x, y);
+      ASSERT_EQ(of_one.size(), of_other.size()) << x << ' ' << y;
+      for (std::size_t i = 0; i < of_one.size(); ++i) {
+        ASSERT_EQ(of_one[i].bottom, of_other[i].bottom) << x << ' ' << y;
+        ASSERT_EQ(of_one[i].top, of_other[i].top) << x << ' ' << y;
+      }
+      ASSERT_EQ(one.cut_by(x, y), other.cut_by(x, y)) << x << ' ' << y;
+    }
+}
+
+void expect_same(const std::vector<SweepOutcome>& one, const std::vector<SweepOutcome>& other) {
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].volume, other[i].volume) << i;
+    EXPECT_EQ(one[i].depth, other[i].depth) << i;
+    EXPECT_EQ(one[i].point, other[i].point) << i;
+  }
+}
+
+/// A program of all kinds of sweeps over a plate of 300 x 200 mm.
+class SomeSweeps {
+ public:
+  std::vector<Sweep> make(std::uint64_t seed, int count) const {
+    Random random(seed);
+    std::vector<Sweep> all;
+    Vec3 at(150, 100, 0);
+    for (int i = 0; i < count; ++i) {
+      const RevolvedBody& tool = tools_[random.below(tools_.size())];
+      const Vec3 to = Vec3(random.real(-5, 305), random.real(-5, 205), random.real(-20, 3));
+      const Vec3 axis = random.one_in(3) ? tilted(random.real(-60, 60)) : Vec3(0, 0, 1);
+      const auto tag = static_cast<CutTag>(i);
+      Sweep sweep = line(tool, at, to, axis, tag);
+      if (random.one_in(4)) sweep = arc(tool, to, to, to + Vec3(random.real(1, 30), 0, 0), 360, {0, 0, 1}, tag);
+      if (random.one_in(20)) sweep = turn(tool, {to, axis}, {to, tilted(random.real(-60, 60))}, tag);
+      if (random.one_in(4)) sweep = asking(sweep);
+      all.push_back(sweep);
+      at = to;
+    }
+    return all;
+  }
+
+ private:
+  std::vector<RevolvedBody> tools_ = {flat(6, 50), ball(4, 50), body(solids::bull_body(8, 2, 50)),
+                                      body(solids::drill_body(5, 118, 50))};
+};
+
+const solids::Cuboid kPlate = box({0, 0, -18}, {300, 200, 0});
+
+TEST(Stock, IsTheSameForAnyNumberOfThreads) {
+  const SomeSweeps source;
+  for (const std::uint64_t seed : {1U, 2U}) {
+    const std::vector<Sweep> sweeps = source.make(seed, 60);
+    Stock alone(kPlate, 0.7);
+    const auto outcomes = alone.apply(sweeps);
+    for (const int count : {1, 2, 7}) {
+      Stock together(kPlate, 0.7);
+      expect_same(together.apply(sweeps, threads(count)), outcomes);
+      expect_same(together, alone);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(Stock, IsTheSameForAnyDivisionIntoCalls) {
+  const SomeSweeps source;
+  const std::vector<Sweep> sweeps = source.make(3, 60);
+  Stock whole(kPlate, 0.7);
+  const auto outcomes = whole.apply(sweeps);
+  Stock divided(kPlate, 0.7);
+  std::vector<SweepOutcome> of_parts;
+  for (std::size_t i = 0; i < sweeps.size();) {
+    const std::size_t size = std::min(i % 7 + 1, sweeps.size() - i);
+    for (const SweepOutcome& outcome : divided.apply(std::span(sweeps).subspan(i, size))) of_parts.push_back(outcome);
+    i += size;
+  }
+  expect_same(of_parts, outcomes);
+  expect_same(divided, whole);
+}
+
+TEST(Stock, OutcomesAddUpToWhatIsMissing) {
+  const SomeSweeps source;
+  Stock stock(kPlate, 0.7);
+  const std::vector<Sweep> sweeps = source.make(4, 60);
+  double removed = 0;
+  const auto outcomes = stock.apply(sweeps);
+  for (std::size_t i = 0; i < sweeps.size(); ++i)
+    if (sweeps[i].purpose == SweepPurpose::Cut) removed += outcomes[i].volume;
+  EXPECT_NEAR(removed / (300 * 200 * 18 - stock.volume()), 1, 1e-5);
+}
+
+TEST(Stock, CopiesAreIndependentAndShareWhatNeitherHasCut) {
+  const RevolvedBody tool = flat(5);
+  Stock stock(box({0, 0, -18}, {640, 640, 0}), 0.5);  // 10 x 10 tiles of 64 mm.
+  apply(stock, line(tool, {32, 32, -5}, {600, 32, -5}));
+  const Stock copy = stock;
+  EXPECT_TRUE(stock.tiles_changed_since(copy).empty());
+  EXPECT_EQ(copy.own_memory(), 0U);
+  apply(stock, line(tool, {100, 100, -5}, {110, 100, -5}, {0, 0, 1}, 7));
+  EXPECT_NEAR(stock.intervals_at(100, 100).front().top, -5, 1e-6);
+  EXPECT_NEAR(copy.intervals_at(100, 100).front().top, 0, 1e-6);
+  EXPECT_EQ(stock.tiles_changed_since(copy), std::vector<TileIndex>({TileIndex{1, 1}}));
+  EXPECT_EQ(copy.tiles_changed_since(stock), std::vector<TileIndex>({TileIndex{1, 1}}));
+  // One tile, with its node.
+  EXPECT_LE(stock.own_memory(), 140000U);
+  EXPECT_GE(stock.own_memory(), 128U * 1024);
+}
+
+TEST(Stock, AirCutsShareEverything) {
+  const RevolvedBody tool = flat(5);
+  Stock stock(kPlate, 0.5);
+  apply(stock, line(tool, {32, 32, -5}, {250, 32, -5}));
+  const Stock copy = stock;
+  EXPECT_FALSE(apply(stock, line(tool, {32, 32, -5}, {250, 32, -5})).meets()) << "the same again";
+  EXPECT_FALSE(apply(stock, line(tool, {0, 100, 0}, {250, 100, 0})).meets()) << "on the surface";
+  EXPECT_TRUE(stock.tiles_changed_since(copy).empty());
+}
+
+TEST(Stock, AnswersWhatIsBelowAndWhoCutIt) {
+  const RevolvedBody tool = flat(5);
+  const RevolvedBody saw = body(solids::disc_body(20, 3));
+  Stock stock(kPlate, 0.5);
+  EXPECT_EQ(stock.cut_by(100, 100), std::nullopt);
+  apply(stock, line(tool, {50, 100, -6}, {150, 100, -6}, {0, 0, 1}, 41));
+  apply(stock, line(saw, {100, -30, -14}, {100, 230, -14}, {0, 0, 1}, 42));  // A slot from -14 to -11.
+  EXPECT_EQ(stock.cut_by(60, 100), std::optional<CutTag>(41));
+  EXPECT_EQ(stock.cut_by(100, 100), std::optional<CutTag>(42));
+  const std::vector<HeightInterval> left = stock.intervals_at(100, 100);
+  ASSERT_EQ(left.size(), 2U);
+  EXPECT_NEAR(left[0].top, -14, 1e-5);
+  EXPECT_NEAR(left[1].bottom, -11, 1e-5);
+  EXPECT_NEAR(left[1].top, -6, 1e-5);
+  EXPECT_NEAR(stock.first_below({100, 100, 10})->top, -6, 1e-5);
+  EXPECT_NEAR(stock.first_below({100, 100, -12})->top, -14, 1e-5);
+  EXPECT_NEAR(stock.first_below({100, 100, -8})->top, -8, 1e-5);
+  EXPECT_FALSE(stock.first_below({100, 100, -19}));
+  EXPECT_FALSE(stock.first_below({1000, 100, 10}));
+  EXPECT_TRUE(stock.intervals_at(-1, 100).empty());
+}
+
+TEST(Stock, AskingSeesTheStockOfItsMoment) {
+  const RevolvedBody tool = flat(5);
+  const std::vector<Sweep> sweeps = {
+      asking(line(tool, {100, 100, -4}, {120, 100, -4})), line(tool, {100, 100, -4}, {120, 100, -4}),
+      asking(line(tool, {100, 100, -4}, {120, 100, -4})), asking(line(tool, {120, 100, -4}, {120, 100, 50})),
+      asking(line(tool, {100, 100, -4}, {121, 100, -4}))};
+  Stock stock(kPlate, 0.5);
+  const auto outcomes = stock.apply(sweeps);
+  EXPECT_NEAR(outcomes[0].volume, (25 * pi + 200) * 4, 5);
+  EXPECT_NEAR(outcomes[0].depth, 4, 1e-5);
+  EXPECT_NEAR(outcomes[0].point.z(), -4, 1e-5);
+  EXPECT_TRUE(outcomes[1].meets());
+  EXPECT_FALSE(outcomes[2].meets()) << "the tool touches what it has cut";
+  EXPECT_FALSE(outcomes[3].meets()) << "and moves up along the wall";
+  EXPECT_TRUE(outcomes[4].meets());
+  EXPECT_GT(outcomes[4].point.x(), 120);
+}
+
+TEST(Stock, DepthIsAlongTheAxis) {
+  const RevolvedBody tool = flat(5, 100);
+  Stock stock(box({0, 0, -50}, {100, 100, 0}), 0.5);
+  EXPECT_NEAR(apply(stock, line(tool, {20, 20, 5}, {20, 20, -30})).depth, 30, 1e-4);
+  const Vec3 axis = tilted(60);
+  // Through the whole plate of 50 mm, the longest line of material in the tool is its diameter over the sine.
+  EXPECT_NEAR(apply(stock, line(tool, Vec3(50, 60, -25) - 60 * axis, Vec3(50, 60, -25) - 60 * axis, axis)).depth,
+              10 / std::sin(pi / 3) * std::cos(pi / 3), 0.05);
+}
+
+TEST(Stock, BackwardsIsTheSame) {
+  const SomeSweeps source;
+  std::vector<Sweep> forward = source.make(5, 40);
+  std::erase_if(forward, [](const Sweep& sweep) { return !std::holds_alternative<StraightPath>(sweep.path); });
+  for (const Sweep& sweep : forward) {
+    Sweep back = sweep;
+    StraightPath& path = std::get<StraightPath>(back.path);
+    std::swap(path.from.origin, path.to);
+    if (path.from.axis.z() < 1) continue;  // Equal but for the last digit.
+    Stock one(kPlate, 1);
+    Stock other(kPlate, 1);
+    apply(one, sweep);
+    apply(other, back);
+    expect_same(one, other);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Stock, SplitMovesRemoveTheSame) {
+  const RevolvedBody tools[] = {flat(6), ball(6), body(solids::bull_body(6, 2, 60)),
+                                body(solids::cone_body(6, 1, 60, 60))};
+  for (const RevolvedBody& tool : tools)
+    for (const Vec3& axis : {Vec3(0, 0, 1), tilted(30)}) {
+      const Vec3 from(40, 50, -3);
+      const Vec3 to(200, 120, -12);
+      std::vector<Sweep> parts;
+      for (int i = 0; i < 5; ++i)
+        parts.push_back(line(tool, from + i / 5.0 * (to - from), from + (i + 1) / 5.0 * (to - from), axis));
+      const Stock stock(kPlate, 0.5);
+      const double whole = removed(stock, {line(tool, from, to, axis)});
+      EXPECT_NEAR(removed(stock, parts) / whole, 1, 0.0005);
+    }
+}
+
+TEST(Stock, ShiftsByPartsOfTheSpacingHardlyMatter) {
+  const RevolvedBody tool = ball(6);
+  const Stock stock(kPlate, 0.5);
+  const double expected = removed(stock, {line(tool, {40, 50, -3}, {200, 120, -12})});
+  for (int i = 1; i < 7; ++i) {
+    const Vec3 shift(i * 0.071, i * 0.113, 0);
+    EXPECT_NEAR(removed(stock, {line(tool, Vec3(40, 50, -3) + shift, Vec3(200, 120, -12) + shift)}) / expected, 1,
+                0.001);
+  }
+}
+
+TEST(Stock, SweepsThatMakeNoSenseDoNothing) {
+  const double nan = std::nan("");
+  const double infinite = std::numeric_limits<double>::infinity();
+  const RevolvedBody tool = flat(5);
+  const RevolvedBody ball_tool = ball(5);
+  Stock stock(kPlate, 1);
+  const Stock copy = stock;
+  for (const double bad : {nan, infinite, -infinite, 1e300, 1e7}) {
+    for (const RevolvedBody* body : {&tool, &ball_tool}) {
+      for (int i = 0; i < 3; ++i) {
+        Vec3 to(100, 100, -5);
+        to[i] = bad;
+        apply(stock, line(*body, {50, 50, -5}, to));
+        apply(stock, line(*body, to, {50, 50, -5}, tilted(30)));
+        apply(stock, arc(*body, {50, 50, -5}, to, {60, 50, -5}, 90));
+        apply(stock, turn(*body, {{50, 50, -5}, tilted(1)}, {to, tilted(9)}));
+        Vec3 axis(0, 0, 1);
+        axis[i] = bad;
+        apply(stock, line(*body, {50, 50, -5}, {60, 50, -5}, axis));
+      }
+      apply(stock, arc(*body, {50, 50, -5}, {60, 50, -5}, {55, 50, -5}, bad));
+    }
+  }
+  apply(stock, line(tool, {50, 50, -5}, {60, 50, -5}, {0, 0, 0}));
+  apply(stock, line(tool, {50, 50, -5}, {60, 50, -5}, {0, 0, 2}));
+  apply(stock, {.body = nullptr, .path = StraightPath{{{0, 0, 0}, {0, 0, 1}}, {1, 1, -5}}});
+  EXPECT_TRUE(stock.apply({}).empty());
+  EXPECT_TRUE(stock.tiles_changed_since(copy).empty());
+}
+
+TEST(Stock, ExtremeSweepsEnd) {
+  const RevolvedBody tools[] = {flat(5),
+                                ball(5),
+                                body(solids::bull_body(5, 1, 30)),
+                                body(solids::drill_body(5, 90, 30)),
+                                body(solids::flat_body(1e-9, 1e-9)),
+                                body(solids::ball_body(1e4, 1e5)),
+                                RevolvedBody({{.core = {0, 0, 0, 0}}})};
+  Stock stock(box({0, 0, -5}, {20, 20, 0}), 1);
+  Random random(1);
+  const auto any = [&] { return Vec3(random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)); };
+  for (const RevolvedBody& tool : tools)
+    for (const double size : {0.0, 1e-300, 1e-9, 1.0, 1e5, 9e5}) {
+      const Vec3 from = size * any();
+      const Vec3 to = size * any();
+      apply(stock, asking(line(tool, from, to)));
+      apply(stock, asking(line(tool, from, to, tilted(30))));
+      apply(stock, asking(line(tool, from, to, tilted(90))));
+      apply(stock, asking(arc(tool, from, from, from + Vec3(size, 0, 0), 360)));
+      apply(stock, asking(arc(tool, from, to, (from + to) / 2, 180, {0, 1, 0})));
+      if (size < 1e5) apply(stock, asking(turn(tool, {from, tilted(1e-12)}, {to, tilted(1)})));
+    }
+  EXPECT_NEAR(stock.volume(), 2000, 1e-6);
+}
+
+}  // namespace
+}  // namespace isocnc::stock::cuts
