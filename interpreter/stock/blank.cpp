@@ -136,6 +136,7 @@ DexelGrid DexelGrid::tile(int tile_column, int tile_row) const {
   const int row = tile_row * Tile::kSize;
   return {.first = {x(column), y(row)},
           .spacing = spacing,
+          .per_mm = per_mm,
           .columns = std::min(Tile::kSize, columns - column),
           .rows = std::min(Tile::kSize, rows - row)};
 }
@@ -146,6 +147,7 @@ DexelGrid grid_over(const solids::BoundingBox& bounds, double spacing) {
   grid.columns = cells_across(size.x(), spacing);
   grid.rows = cells_across(size.y(), spacing);
   grid.spacing = {size.x() / grid.columns, size.y() / grid.rows};
+  grid.per_mm = grid.spacing.cwiseInverse();
   grid.first = bounds.min().head<2>() + grid.spacing / 2;
   return grid;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "interpreter/stock/grid.h"
@@ -18,6 +19,10 @@ class DexelSink {
   bool has_material_in(const HeightInterval& z) const { return z.bottom < ceiling() && z.top > floor(); }
   bool cuts() const { return cut_ != nullptr; }
   const DexelCount& count() const { return count_; }
+
+  /// For a body that cuts and reaches above all material: the upper ends of the dexels of a row from a column on, if
+  /// each has at most one interval; else null. A dexel that ends below the body's lower surface need not be taken.
+  const float* tops_to_cut(int row, int first) const { return cut_ ? tile_.tops(row, first) : nullptr; }
 
   /// The columns [first, last) of a row, all with the same interval.
   void take_run(int row, int first, int last, const HeightInterval& z) {
@@ -38,6 +43,13 @@ class DexelSink {
     } else {
       tile_.meet_row(row, first, last, bottoms_.data(), tops_.data(), count_);
     }
+  }
+  /// The same where all intervals end at `top`.
+  void take_row(int row, int first, int last, double top) {
+    if (first >= last) return;
+    if (cut_) return cut_->cut_row(row, first, last, bottoms_.data(), top_of(top), tag_, count_);
+    std::fill_n(tops_.data(), last - first, top_of(top));
+    take_row(row, first, last);
   }
   /// Sets the interval of the i-th column of the next row to be taken.
   void set(int i, const HeightInterval& z) {

@@ -10,6 +10,7 @@ namespace isocnc::stock {
 struct DexelGrid {
   geometry::Vec2 first = geometry::Vec2::Zero();    ///< Place of the dexel in column 0 of row 0.
   geometry::Vec2 spacing = geometry::Vec2::Ones();  ///< Between columns and between rows.
+  geometry::Vec2 per_mm = geometry::Vec2::Ones();   ///< 1 / spacing.
   int columns = 0;
   int rows = 0;
 
@@ -19,8 +20,8 @@ struct DexelGrid {
 
   /// The first column at `x` or above; `columns` if there is none. A run of columns from first_column(a) up to, and
   /// without, first_column(b) is that of [a, b). So a slot of 20 mm is 40 dexels of 0.5 mm wide wherever it lies.
-  int first_column(double x) const { return first_at((x - first.x()) / spacing.x(), columns); }
-  int first_row(double y) const { return first_at((y - first.y()) / spacing.y(), rows); }
+  int first_column(double x) const { return first_at((x - first.x()) * per_mm.x(), columns); }
+  int first_row(double y) const { return first_at((y - first.y()) * per_mm.y(), rows); }
 
   int tile_columns() const { return (columns + Tile::kSize - 1) / Tile::kSize; }
   int tile_rows() const { return (rows + Tile::kSize - 1) / Tile::kSize; }

@@ -40,7 +40,9 @@ void append_lower(const BodyPiece& piece, std::vector<LowerSurface>& surfaces) {
   const bool is_disc = !(height > 0);
   const double inner = is_disc ? std::max(core.bottom_radius, core.top_radius) : core.bottom_radius;
   const double widening = is_disc ? 0 : core.top_radius - core.bottom_radius;
-  if (inner > 0) surfaces.push_back({.kind = Kind::Flat, .z = core.bottom - rounding, .end = inner});
+  // Within its start, the next surface is as high as the disc.
+  if (inner > 0 && !(rounding > 0) && !(widening > 0))
+    surfaces.push_back({.kind = Kind::Flat, .z = core.bottom - rounding, .end = inner});
   const auto append_rounding = [&](double z, double middle, double start, double end) {
     if (!(rounding > 0)) return;
     surfaces.push_back(

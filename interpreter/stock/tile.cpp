@@ -248,20 +248,15 @@ void Tile::cut_run(int row, int first, int last, float bottom, float top, CutTag
 void Tile::cut_row(int row, int first, int last, const float* bottoms, const float* tops, CutTag tag,
                    DexelCount& count) {
   const int size = last - first;
-  if (!has_lower(row)) {
-    bool is_above = true;
-    for (int i = 0; i < size; ++i) is_above &= tops[i] >= ceiling_ || bottoms[i] >= tops[i];
-    if (is_above) {
-      // An empty interval has to leave its dexel alone.
-      std::array<float, kSize> bounds;
-      for (int i = 0; i < size; ++i)
-        bounds[static_cast<std::size_t>(i)] =
-            bottoms[i] < tops[i] ? bottoms[i] : std::numeric_limits<float>::infinity();
-      return cut_from_above(row, first, last, bounds.data(), 0, tag, count);
-    }
-  }
   for (int i = 0; i < size; ++i)
     if (bottoms[i] < tops[i]) cut_dexel(row, first + i, bottoms[i], tops[i], tag, count);
+}
+
+void Tile::cut_row(int row, int first, int last, const float* bottoms, float top, CutTag tag, DexelCount& count) {
+  if (top <= floor_) return;
+  if (top >= ceiling_ && !has_lower(row)) return cut_from_above(row, first, last, bottoms, 0, tag, count);
+  for (int i = 0; i < last - first; ++i)
+    if (bottoms[i] < top) cut_dexel(row, first + i, bottoms[i], top, tag, count);
 }
 
 void Tile::meet_dexel(int row, int column, float bottom, float top, DexelCount& count) const {

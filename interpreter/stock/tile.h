@@ -65,6 +65,14 @@ class Tile {
   /// A dexel with bottom >= top is left alone.
   void cut_row(int row, int first, int last, const float* bottoms, const float* tops, CutTag tag, DexelCount& count);
 
+  /// The same where all intervals end at `top`.
+  void cut_row(int row, int first, int last, const float* bottoms, float top, CutTag tag, DexelCount& count);
+
+  /// The upper ends of the dexels of a row from a column on, if each has at most one interval; else null.
+  const float* tops(int row, int first) const {
+    return is_uniform() || has_lower(row) ? nullptr : tops_.data() + index(row, first);
+  }
+
   /// Counts what of the material of a row is in [bottom, top]. Overlaps shorter than kTouch are none.
   void meet_row(int row, int first, int last, const float* bottoms, const float* tops, DexelCount& count) const;
 

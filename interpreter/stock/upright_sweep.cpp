@@ -15,8 +15,6 @@ using Kind = LowerSurface::Kind;
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr int kPack = 4;
-using Pack = Eigen::Array<double, kPack, 1>;
 using Squares = std::array<double, Tile::kSize>;
 
 /// The half chord of a circle at a distance from its center; negative if there is none.
@@ -32,41 +30,68 @@ class DistanceRow {
   DistanceRow(const RevolvedColumn& column, const HeightInterval& origin, DexelSink& sink)
       : column_(column), origin_(origin), sink_(sink) {}
 
-  void take(int row, int first, int last, const Squares& squares) {
+  void take(int row, int first, int last, const double* squares) {
     const int size = last - first;
     fill(column_.lower, origin_.bottom, squares, size, sink_.bottoms());
-    if (column_.is_flat_above()) {
-      std::fill_n(sink_.tops(), size, rounded_down(origin_.top + column_.top));
-    } else {
-      fill(column_.upper, -origin_.top, squares, size, sink_.tops());
-      for (int i = 0; i < size; ++i) sink_.tops()[i] = -sink_.tops()[i];
-    }
+    if (column_.is_flat_above()) return sink_.take_row(row, first, last, origin_.top + column_.top);
+    fill(column_.upper, -origin_.top, squares, size, sink_.tops());
+    for (int i = 0; i < size; ++i) sink_.tops()[i] = -sink_.tops()[i];
     sink_.take_row(row, first, last);
   }
 
  private:
-  static void fill(const std::vector<LowerSurface>& surfaces, double origin, const Squares& squares, int size,
+  static void fill(const std::vector<LowerSurface>& surfaces, double origin, const double* squares, int size,
                    float* heights) {
+    std::array<double, Tile::kSize> lowest;
+    if (surfaces.size() == 1) {  // It reaches as far as the column.
+      fill(surfaces.front(), squares, size, lowest.data());
+    } else {
+      std::fill_n(lowest.data(), size, kNever);
+      std::array<double, Tile::kSize> other;
+      for (const LowerSurface& surface : surfaces) {
+        fill(surface, squares, size, other.data());
+        const double limit = surface.end * surface.end;
+        double* const lowest_of = lowest.data();
+        const double* const other_of = other.data();
+        for (int i = 0; i < size; ++i)
+          lowest_of[i] = squares[i] <= limit && other_of[i] < lowest_of[i] ? other_of[i] : lowest_of[i];
+      }
+    }
     constexpr double kUp = 6.0e-8;
-    for (int i = 0; i < size; i += kPack) {
-      const Pack square = Eigen::Map<const Pack>(squares.data() + i);
-      Pack lowest = Pack::Constant(kNever);
-      for (const LowerSurface& surface : surfaces)
-        lowest = (square <= surface.end * surface.end).select(lowest.min(heights_of(surface, square)), lowest);
-      lowest += origin;
-      lowest += lowest.abs() * kUp;
-      const Eigen::Array<float, kPack, 1> rounded = lowest.cast<float>();
-      for (int k = 0; k < std::min(kPack, size - i); ++k) heights[i + k] = rounded[k];
+    const double* const from = lowest.data();
+    for (int i = 0; i < size; ++i) {
+      const double height = from[i] + origin;
+      heights[i] = static_cast<float>(height + std::abs(height) * kUp);
     }
   }
 
-  static Pack heights_of(const LowerSurface& surface, const Pack& square) {
-    if (surface.kind == Kind::Flat) return Pack::Constant(surface.z);
-    if (surface.kind == Kind::Round && surface.middle == 0 && surface.start == 0)
-      return surface.z - (surface.rounding * surface.rounding - square).max(0.0).sqrt();
-    const Pack at = square.sqrt().max(surface.start);
-    if (surface.kind == Kind::Cone) return surface.z + surface.slope * (at - surface.start);
-    return surface.z - (surface.rounding * surface.rounding - (at - surface.middle).square()).max(0.0).sqrt();
+  /// In loops that become vectors.
+  static void fill(const LowerSurface& surface, const double* square, int size, double* heights) {
+    const double z = surface.z;
+    const double start = surface.start;
+    const double middle = surface.middle;
+    const double slope = surface.slope;
+    const double rounding = surface.rounding * surface.rounding;
+    if (surface.kind == Kind::Flat) {
+      std::fill_n(heights, size, z);
+    } else if (surface.kind == Kind::Cone) {
+      for (int i = 0; i < size; ++i) {
+        const double r = std::sqrt(square[i]);
+        heights[i] = z + slope * (r > start ? r - start : 0.0);
+      }
+    } else if (middle == 0 && start == 0) {
+      for (int i = 0; i < size; ++i) {
+        const double rest = rounding - square[i];
+        heights[i] = z - std::sqrt(rest > 0 ? rest : 0.0);
+      }
+    } else {
+      for (int i = 0; i < size; ++i) {
+        const double r = std::sqrt(square[i]);
+        const double out = (r > start ? r : start) - middle;
+        const double rest = rounding - out * out;
+        heights[i] = z - std::sqrt(rest > 0 ? rest : 0.0);
+      }
+    }
   }
 
   const RevolvedColumn& column_;
@@ -74,48 +99,118 @@ class DistanceRow {
   DexelSink& sink_;
 };
 
-/// The path of a line in the plane, from its end with the smaller x.
+/// The path of a line in the plane, with the body's radius.
 struct FlatLine {
   Vec2 start;
+  Vec2 stop;
   Vec2 direction;  ///< Unit vector; any if the length is 0.
   double length;
+  double radius;
 
-  FlatLine(const Vec3& from, const Vec3& to) : start(from.head<2>()), direction(1, 0) {
-    const Vec2 along = to.head<2>() - start;
+  FlatLine(const Vec3& from, const Vec3& to, double body_radius)
+      : start(from.head<2>()), stop(to.head<2>()), direction(1, 0), radius(body_radius) {
+    const Vec2 along = stop - start;
     length = along.norm();
     if (length > 0) direction = along / length;
+    has_sides_ = length > 0 && std::abs(direction.y()) >= 1e-12;  // Else both ends reach as far.
+    if (!has_sides_) return;
+    is_steep_ = std::abs(direction.x()) < 1e-12;
+    shear_ = direction.x() / direction.y();
+    half_width_ = radius / std::abs(direction.y());
+    if (!is_steep_) lean_ = direction.y() / direction.x();
+    if (!is_steep_) end_ = length / direction.x();
   }
 
-  /// The x of all points at the height y that are nearer than `radius` to the line: those near either end, and those
+  /// The x of all points at the height y that are nearer than the radius to the line: those near either end, and those
   /// beside it.
-  HeightInterval row(double y, double radius) const {
+  HeightInterval row(double y) const {
     HeightInterval x;
     const double first = half_chord(radius, y - start.y());
     if (first >= 0) x.include({start.x() - first, start.x() + first});
-    const Vec2 stop = start + length * direction;
     const double last = half_chord(radius, y - stop.y());
     if (last >= 0) x.include({stop.x() - last, stop.x() + last});
-    if (length > 0) x.include(beside(y, radius));
+    if (has_sides_) x.include(beside(y - start.y()));
     return x;
   }
 
  private:
-  HeightInterval beside(double y, double radius) const {
-    const double rise = y - start.y();
-    if (std::abs(direction.y()) < 1e-12) return {};  // The ends reach as far.
-    // |u d_y - rise d_x| <= radius and 0 <= u d_x + rise d_y <= length, for u = x - start.x.
-    const double middle = rise * direction.x() / direction.y();
-    const double half = radius / std::abs(direction.y());
-    HeightInterval u{middle - half, middle + half};
-    if (std::abs(direction.x()) < 1e-12) {
+  /// |u d_y - rise d_x| <= radius and 0 <= u d_x + rise d_y <= length, for u = x - start.x.
+  HeightInterval beside(double rise) const {
+    const double middle = rise * shear_;
+    HeightInterval u{middle - half_width_, middle + half_width_};
+    if (is_steep_) {
       if (rise * direction.y() < 0 || rise * direction.y() > length) return {};
     } else {
-      const double one = -rise * direction.y() / direction.x();
-      const double other = (length - rise * direction.y()) / direction.x();
+      const double one = -rise * lean_;
+      const double other = one + end_;
       u.clip({std::min(one, other), std::max(one, other)});
     }
     return u.bottom <= u.top ? HeightInterval{u.bottom + start.x(), u.top + start.x()} : HeightInterval();
   }
+
+  bool has_sides_ = false;
+  bool is_steep_ = false;
+  double shear_ = 0;
+  double half_width_ = 0;
+  double lean_ = 0;
+  double end_ = 0;
+};
+
+/// The squares of the distances of `size` dexels of a row from a line. `u` and `rise` lead from the start of the line
+/// to the first of them, `step` to the next.
+void measure(const FlatLine& path, double u, double step, double rise, int size, double* squares) {
+  const Vec2 direction = path.direction;
+  const double length = path.length;
+  for (int i = 0; i < size; ++i) {
+    const double at = u + i * step;
+    const double along = at * direction.x() + rise * direction.y();
+    const double aside = at * direction.y() - rise * direction.x();
+    const double over = along - length;
+    const double beyond = (along < 0 ? along : 0.0) + (over > 0 ? over : 0.0);
+    squares[i] = aside * aside + beyond * beyond;
+  }
+}
+
+/// Tells for eight dexels at once, without a square root, that they surely end below a ball that moves along a level
+/// line. In short moves most dexels do, since the moves before have cut them.
+class BallTest {
+ public:
+  static constexpr int kGroup = 8;
+
+  BallTest(const RevolvedColumn& column, const FlatLine& path, const HeightInterval& origin, double step) {
+    const LowerSurface& lower = column.lower.front();
+    is_usable_ = column.lower.size() == 1 && column.is_flat_above() && lower.kind == Kind::Round && lower.middle == 0 &&
+                 lower.start == 0;
+    direction_ = path.direction.cast<float>();
+    length_ = static_cast<float>(path.length);
+    middle_ = static_cast<float>(lower.z + origin.bottom);
+    const double square = lower.rounding * lower.rounding;
+    // The errors of floats: of places along the path, and of heights.
+    const double error = 1e-6 * (path.length + 4 * column.radius + std::abs(middle_));
+    square_ = static_cast<float>(square + 8 * column.radius * error + 1e-6 * square);
+    steps_ = static_cast<float>(step) * Group::LinSpaced(0, kGroup - 1);
+  }
+
+  bool is_usable() const { return is_usable_; }
+  /// As measure() has it.
+  bool are_below(const float* tops, double u, double rise) const {
+    const Group at = steps_ + static_cast<float>(u);
+    const auto y = static_cast<float>(rise);
+    const Group along = at * direction_.x() + y * direction_.y();
+    const Group aside = at * direction_.y() - y * direction_.x();
+    const Group beyond = along - along.max(0.0F).min(length_);
+    const Group below = (middle_ - Eigen::Map<const Group>(tops)).max(0.0F);
+    return !((square_ - aside.square() - beyond.square() - below.square()).maxCoeff() > 0);
+  }
+
+ private:
+  using Group = Eigen::Array<float, kGroup, 1>;
+  Eigen::Vector2f direction_;
+  float length_;
+  float middle_;
+  float square_;
+  Group steps_;
+  bool is_usable_;
 };
 
 bool is_left(const Vec3& one, const Vec3& other) {
@@ -127,11 +222,11 @@ bool is_left(const Vec3& one, const Vec3& other) {
 void sweep_slope(const RevolvedColumn& column, const FlatLine& path, double from_z, double to_z, DexelSink& sink) {
   const DexelGrid& grid = sink.grid();
   const double pitch = (to_z - from_z) / path.length;
-  const double stop = path.start.y() + path.length * path.direction.y();
+  const double stop = path.stop.y();
   const int last_row = grid.first_row(std::max(path.start.y(), stop) + column.radius);
   for (int row = grid.first_row(std::min(path.start.y(), stop) - column.radius); row < last_row; ++row) {
     const double y = grid.y(row);
-    const HeightInterval x = path.row(y, column.radius);
+    const HeightInterval x = path.row(y);
     const int first = grid.first_column(x.bottom);
     const int last = std::max(first, grid.first_column(x.top));
     for (int i = first; i < last; ++i) {
@@ -223,16 +318,18 @@ void sweep(const RevolvedColumn& column, const UprightLine& line, DexelSink& sin
   const Vec3& to = is_forward ? line.to : line.from;
   const HeightInterval origin{std::min(from.z(), to.z()), std::max(from.z(), to.z())};
   if (!sink.has_material_in({origin.bottom + column.bottom, origin.top + column.top})) return;
-  const FlatLine path(from, to);
+  const FlatLine path(from, to, column.radius);
   if (path.length > 0 && from.z() != to.z()) return sweep_slope(column, path, from.z(), to.z(), sink);
   const DexelGrid& grid = sink.grid();
   const bool is_flat = column.is_flat_below() && column.is_flat_above();
   DistanceRow heights(column, origin, sink);
+  const BallTest ball(column, path, origin, grid.spacing.x());
+  const bool reaches_above = origin.top + column.top >= sink.ceiling();
   Squares squares{};
   const int last_row = grid.first_row(std::max(from.y(), to.y()) + column.radius);
   for (int row = grid.first_row(std::min(from.y(), to.y()) - column.radius); row < last_row; ++row) {
     const double y = grid.y(row);
-    const HeightInterval x = path.row(y, column.radius);
+    const HeightInterval x = path.row(y);
     const int first = grid.first_column(x.bottom);
     const int last = grid.first_column(x.top);
     if (first >= last) continue;
@@ -241,14 +338,17 @@ void sweep(const RevolvedColumn& column, const UprightLine& line, DexelSink& sin
       continue;
     }
     const double rise = y - path.start.y();
-    for (int i = first; i < last; ++i) {
-      const double u = grid.x(i) - path.start.x();
-      const double along = u * path.direction.x() + rise * path.direction.y();
-      const double aside = u * path.direction.y() - rise * path.direction.x();
-      const double beyond = along - std::clamp(along, 0.0, path.length);
-      squares[static_cast<std::size_t>(i - first)] = aside * aside + beyond * beyond;
-    }
-    heights.take(row, first, last, squares);
+    const double start = grid.first.x() - path.start.x();
+    const double step = grid.spacing.x();
+    const auto take = [&](int from, int to) {
+      measure(path, start + from * step, step, rise, to - from, squares.data());
+      heights.take(row, from, to, squares.data());
+    };
+    const float* const tops = reaches_above && ball.is_usable() ? sink.tops_to_cut(row, first) : nullptr;
+    int done = first;
+    for (int i = first; tops && i + BallTest::kGroup <= last; i += BallTest::kGroup, done = i)
+      if (!ball.are_below(tops + (i - first), start + i * step, rise)) take(i, i + BallTest::kGroup);
+    if (done < last) take(done, last);
   }
 }
 
@@ -274,7 +374,7 @@ void sweep(const RevolvedColumn& column, const LevelArc& arc, DexelSink& sink) {
         }
         squares[static_cast<std::size_t>(i - first)] = square;
       }
-      heights.take(row, first, last, squares);
+      heights.take(row, first, last, squares.data());
     });
   }
 }
