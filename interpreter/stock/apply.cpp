@@ -102,7 +102,7 @@ void add(const DexelCount& count, const DexelGrid& part, double cell, double til
 
 std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Workers& workers) {
   std::vector<SweepOutcome> outcomes(sweeps.size());
-  const UnitSweeps divided(sweeps, spacing());
+  const UnitSweeps divided(sweeps, spacing(), bounds().max().z());
   const TileBins bins(divided.units(), grid());
   std::vector<DexelCount> counts(bins.size());
   own(bins.tiles());

@@ -118,11 +118,11 @@ Tile tile_of_mesh(const solids::Mesh& mesh, const DexelGrid& grid) {
 }
 
 Tile tile_of_cylinder(const solids::Cylinder& cylinder, const DexelGrid& grid) {
-  const solids::Frustum frustum{0, cylinder.radius, cylinder.height, cylinder.radius};
+  const FrustumChord chord({0, cylinder.radius, cylinder.height, cylinder.radius}, cylinder.at);
   std::vector<std::vector<HeightInterval>> material;
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
-      const HeightInterval interval = chord(frustum, cylinder.at, Vec2(grid.x(column), grid.y(row)));
+      const HeightInterval interval = chord.of(Vec2(grid.x(column), grid.y(row)));
       material.emplace_back();
       if (!interval.is_empty()) material.back().push_back(interval);
     }

@@ -44,26 +44,26 @@ HeightInterval where_negative(double a, double b, double c, bool upper) {
 }  // namespace
 
 /// With w = (line, 0) - base, a point of the line is h = w.a + z a_z along the axis, and its square distance from the
-/// axis is |w|^2 + z^2 + 2 z w_z - h^2. It is within the cone where that is at most (r + k h)^2.
-HeightInterval chord(const solids::Frustum& frustum, const solids::AxisPlacement& at, const Vec2& line) {
-  const Vec3 base = at.at(frustum.bottom);
-  const Vec3 w(line.x() - base.x(), line.y() - base.y(), -base.z());
-  const double height = frustum.top - frustum.bottom;
-  const double h = w.dot(at.axis);
-  const double slope = at.axis.z();
-  HeightInterval result = where_between(h, slope, 0, height);
+/// axis is |w + z e|^2 - h^2 for the vertical unit vector e. It is within the cone where that is at most (r + k h)^2.
+FrustumChord::FrustumChord(const solids::Frustum& frustum, const solids::AxisPlacement& at)
+    : base_(at.at(frustum.bottom)),
+      axis_(at.axis),
+      height_(frustum.top - frustum.bottom),
+      radius_(frustum.bottom_radius),
+      slope_(at.axis.z()) {
+  if (height_ > 0) k_ = (frustum.top_radius - frustum.bottom_radius) / height_;
+  k_slope_ = k_ * slope_;
+  a_ = axis_.head<2>().squaredNorm() - k_slope_ * k_slope_;
+}
+
+HeightInterval FrustumChord::of(const Vec2& line) const {
+  if (!(height_ > 0)) return {};
+  const Vec3 w(line.x() - base_.x(), line.y() - base_.y(), -base_.z());
+  const double h = w.dot(axis_);
+  HeightInterval result = where_between(h, slope_, 0, height_);
   if (!(result.bottom <= result.top)) return {};
-  if (!(height > 0)) return {};
-  const double k = (frustum.top_radius - frustum.bottom_radius) / height;
-  const double r = frustum.bottom_radius + k * h;
-  const double k_slope = k * slope;
-  // Across the axis: the distance vector is p + z q.
-  const Vec3 p = w - h * at.axis;
-  const Vec3 q = Vec3(0, 0, 1) - slope * at.axis;
-  const double a = q.squaredNorm() - k_slope * k_slope;
-  const double b = p.dot(q) - r * k_slope;
-  const double c = p.squaredNorm() - r * r;
-  result.clip(where_negative(a, b, c, k_slope > 0));
+  const double r = radius_ + k_ * h;
+  result.clip(where_negative(a_, w.z() - h * slope_ - r * k_slope_, w.squaredNorm() - h * h - r * r, k_slope_ > 0));
   return result.is_empty() ? HeightInterval() : result;
 }
 

@@ -5,8 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "interpreter/stock/line_chord.h"
-
 namespace isocnc::stock {
 
 using geometry::Vec2;
@@ -18,8 +16,6 @@ namespace {
 constexpr double kParallelSine = 1e-9;
 constexpr double kConverged = 1e-7;  // mm
 constexpr double kNoSkin = 1e-4;     ///< Pieces of a body that are so near, mm, have nothing between them.
-
-solids::AxisPlacement moved(const solids::AxisPlacement& at, const Vec3& by) { return {at.origin + by, at.axis}; }
 
 /// Without the upper part of its core that is above `ceiling` all along the travel.
 solids::BodyPiece below(double ceiling, const solids::BodyPiece& piece, const solids::AxisPlacement& at,
@@ -43,10 +39,11 @@ SweptPiece::SweptPiece(const solids::BodyPiece& piece, const solids::AxisPlaceme
                        double ceiling)
     : piece_(below(ceiling, piece, at, travel)),
       from_(at),
-      to_(moved(at, travel)),
       travel_(travel),
       moves_(travel.squaredNorm() > 0),
-      core_(piece_.core, at) {
+      core_(piece_.core, at),
+      at_start_(piece_.core, at),
+      at_end_(piece_.core, {at.origin + travel, at.axis}) {
   const Frustum& core = piece_.core;
   is_ball_ = core.top == core.bottom && core.bottom_radius == 0 && core.top_radius == 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -54,7 +51,16 @@ SweptPiece::SweptPiece(const solids::BodyPiece& piece, const solids::AxisPlaceme
     bounds_.min()[axis] = core_.lowest(unit) - piece.rounding + std::min(0.0, travel[axis]);
     bounds_.max()[axis] = core_.highest(unit) + piece.rounding + std::max(0.0, travel[axis]);
   }
-  if (moves_ && !is_ball_) find_edges();
+  if (!moves_ || is_ball_) return;
+  find_edges();
+  discs_ = {SweptDisc{at.at(core.bottom), core.bottom_radius}, SweptDisc{at.at(core.top), core.top_radius}};
+  rise_ = travel.dot(at.axis);
+  travel_square_ = travel.squaredNorm();
+  stays_in_plane_ = std::abs(rise_) <= kParallelSine * travel.norm();
+  if (stays_in_plane_) return;
+  step_ = at.axis.z() / rise_;
+  drift_ = Vec3(0, 0, 1) - step_ * travel;
+  drift_square_ = drift_.squaredNorm();
 }
 
 /// The straight lines on the side of the core along which the travel touches it: with the outward normal
@@ -90,54 +96,47 @@ HeightInterval SweptPiece::chord(const Vec2& line) const {
 /// The surface of the sweep consists of that of the piece at both ends, and of what the curves on it sweep along which
 /// the travel touches it: both rims, and two straight lines.
 HeightInterval SweptPiece::sharp_chord(const Vec2& line) const {
-  HeightInterval result = stock::chord(piece_.core, from_, line);
+  HeightInterval result = at_start_.of(line);
   if (!moves_) return result;
-  const HeightInterval last = stock::chord(piece_.core, to_, line);
-  if (!last.is_empty()) result.include(last);
-  include_disc(piece_.core.bottom, piece_.core.bottom_radius, line, result);
-  include_disc(piece_.core.top, piece_.core.top_radius, line, result);
+  result.include(at_end_.of(line));
+  for (const SweptDisc& disc : discs_) include_disc(disc, line, result);
   for (int i = 0; i < edge_count_; ++i) include_edge(edges_[static_cast<std::size_t>(i)], line, result);
   return result;
 }
 
 /// A point of the line is at the parameter s of the travel at which it lies in the plane of the disc; both s and its
 /// distance from the disc's center are linear in z.
-void SweptPiece::include_disc(double z, double radius, const Vec2& line, HeightInterval& result) const {
-  if (!(radius > 0)) return;
-  const Vec3 center = from_.at(z);
-  const Vec3 w(line.x() - center.x(), line.y() - center.y(), -center.z());
-  const double rise = travel_.dot(from_.axis);
-  const double slope = from_.axis.z();
-  const auto holds = [&](const Vec3& point) {  // Within the disc as it moves in its own plane.
-    const double s = std::clamp(point.dot(travel_) / travel_.squaredNorm(), 0.0, 1.0);
-    return (point - s * travel_).squaredNorm() <= radius * radius;
-  };
-  if (std::abs(rise) <= kParallelSine * travel_.norm()) {
-    if (std::abs(slope) < kParallelSine) return;
-    const double at = -w.dot(from_.axis) / slope;
-    if (holds(w + Vec3(0, 0, at))) result.include(at);
+void SweptPiece::include_disc(const SweptDisc& disc, const Vec2& line, HeightInterval& result) const {
+  if (!(disc.radius > 0)) return;
+  const Vec3 w(line.x() - disc.center.x(), line.y() - disc.center.y(), -disc.center.z());
+  const double h = w.dot(from_.axis);
+  if (stays_in_plane_) {
+    if (std::abs(from_.axis.z()) < kParallelSine) return;
+    const double z = -h / from_.axis.z();
+    const Vec3 point = w + Vec3(0, 0, z);
+    const double share = std::clamp(point.dot(travel_) / travel_square_, 0.0, 1.0);
+    if ((point - share * travel_).squaredNorm() <= disc.radius * disc.radius) result.include(z);
     return;
   }
-  const double start = w.dot(from_.axis) / rise;
-  const double step = slope / rise;
-  const Vec3 p = w - start * travel_;
-  const Vec3 q = Vec3(0, 0, 1) - step * travel_;
+  const double start = h / rise_;
   HeightInterval inside{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  if (std::abs(step) < 1e-14) {
+  if (std::abs(step_) < 1e-14) {
     if (start < 0 || start > 1) return;
   } else {
-    inside = {std::min(-start / step, (1 - start) / step), std::max(-start / step, (1 - start) / step)};
+    const double one = -start / step_;
+    const double other = (1 - start) / step_;
+    inside = {std::min(one, other), std::max(one, other)};
   }
-  const double a = q.squaredNorm();
-  const double b = p.dot(q);
-  const double c = p.squaredNorm() - radius * radius;
-  if (a < 1e-14) {
+  const Vec3 p = w - start * travel_;
+  const double c = p.squaredNorm() - disc.radius * disc.radius;
+  if (drift_square_ < 1e-14) {
     if (c > 0) return;
   } else {
-    const double discriminant = b * b - a * c;
+    const double b = p.dot(drift_);
+    const double discriminant = b * b - drift_square_ * c;
     if (!(discriminant >= 0)) return;
     const double root = std::sqrt(discriminant);
-    inside.clip({(-b - root) / a, (-b + root) / a});
+    inside.clip({(-b - root) / drift_square_, (-b + root) / drift_square_});
   }
   if (inside.bottom <= inside.top && std::isfinite(inside.bottom) && std::isfinite(inside.top)) result.include(inside);
 }

@@ -7,6 +7,7 @@
 #include "interpreter/solids/obstacle.h"
 #include "interpreter/solids/revolved_body.h"
 #include "interpreter/stock/dexel_sink.h"
+#include "interpreter/stock/line_chord.h"
 
 namespace isocnc::stock {
 
@@ -29,9 +30,15 @@ class SweptPiece {
     geometry::Vec3 along;
   };
 
+  /// A disc of the body across its axis, along the travel.
+  struct SweptDisc {
+    geometry::Vec3 center = geometry::Vec3::Zero();
+    double radius = 0;
+  };
+
   HeightInterval sharp_chord(const geometry::Vec2& line) const;
   HeightInterval rounded_chord(const geometry::Vec2& line) const;
-  void include_disc(double z, double radius, const geometry::Vec2& line, HeightInterval& result) const;
+  void include_disc(const SweptDisc& disc, const geometry::Vec2& line, HeightInterval& result) const;
   void include_edge(const SweptEdge& edge, const geometry::Vec2& line, HeightInterval& result) const;
   void find_edges();
   geometry::Vec3 out_of_core(const geometry::Vec3& point) const;
@@ -39,14 +46,22 @@ class SweptPiece {
 
   solids::BodyPiece piece_;
   solids::AxisPlacement from_;
-  solids::AxisPlacement to_;
   geometry::Vec3 travel_;
   bool moves_ = false;
   bool is_ball_ = false;
   solids::PlacedFrustum core_;
+  FrustumChord at_start_;
+  FrustumChord at_end_;
   solids::BoundingBox bounds_;
   std::array<SweptEdge, 2> edges_;
   int edge_count_ = 0;
+  std::array<SweptDisc, 2> discs_;
+  double rise_ = 0;  ///< Of the travel along the axis.
+  double travel_square_ = 0;
+  bool stays_in_plane_ = false;                     ///< Whether discs move in their own plane.
+  double step_ = 0;                                 ///< Growth with z of the share of the travel, see include_disc.
+  geometry::Vec3 drift_ = geometry::Vec3(0, 0, 1);  ///< Growth with z of the distance from the disc's center.
+  double drift_square_ = 1;
 };
 
 /// Takes the dexels that some pieces of one body pass through.

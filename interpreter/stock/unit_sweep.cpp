@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "interpreter/solids/clearance.h"
@@ -76,6 +77,15 @@ SweptShape shape_of_body(const solids::RevolvedBody& body, SweepPurpose purpose)
   return shape;
 }
 
+/// The largest z along the axis of a body, on its way between two placements, at which a point at most `radius` from
+/// the axis may be below `top`; infinite where the axis is nearly level.
+double highest_below(double top, const AxisPlacement& from, const AxisPlacement& to, double radius) {
+  const double up = std::min(from.axis.z(), to.axis.z());
+  if (up < 0.1) return std::numeric_limits<double>::infinity();
+  const double over = top + radius - std::min(from.origin.z(), to.origin.z());
+  return over / (over > 0 ? up : 1.0);
+}
+
 /// The axis on the way from one direction to another.
 class AxisTurn {
  public:
@@ -96,7 +106,8 @@ class AxisTurn {
 
 }  // namespace
 
-UnitSweeps::UnitSweeps(std::span<const Sweep> sweeps, double spacing) : tolerance_(spacing / 20) {
+UnitSweeps::UnitSweeps(std::span<const Sweep> sweeps, double spacing, double top)
+    : tolerance_(spacing / 20), top_(top) {
   units_.reserve(sweeps.size());
   for (std::size_t i = 0; i < sweeps.size(); ++i) append(sweeps[i], static_cast<std::uint32_t>(i));
 }
@@ -205,7 +216,11 @@ void UnitSweeps::append(const TurningPath& path) {
 void UnitSweeps::append_turn(const TurningPath& path, std::size_t piece_index) {
   const AxisTurn turn(path.from.axis, path.to.axis);
   const BodyPiece piece = shape().pieces[piece_index];
-  const Frustum& core = piece.core;
+  const double widest = std::max(piece.core.bottom_radius, piece.core.top_radius) + piece.rounding;
+  const double highest = piece.rounding + highest_below(top_, path.from, path.to, widest);
+  if (highest < piece.core.bottom) return;
+  // Deviations above all material do not matter.
+  const Frustum core = slab(piece.core, piece.core.bottom, highest);
   const Vec3 shift = path.to.origin - path.from.origin;
   const auto at = [&](double share) { return AxisPlacement{path.from.origin + share * shift, turn.at(share)}; };
   // The path of a point on the axis deviates from its chord by the angle's square times its height, over 8.
@@ -229,7 +244,7 @@ void UnitSweeps::append_turn(const TurningPath& path, std::size_t piece_index) {
   const int poses =
       radius > 0 ? parts_of(length / std::min(radius, std::sqrt(8 * radius * tolerance_))) : parts_of(kMaxParts);
   const bool is_ball = core.bottom == core.top && core.bottom_radius == 0 && core.top_radius == 0;
-  if (is_ball || straight_parts <= poses / 4)
+  if (is_ball || straight_parts <= 2 + poses / 4)
     return append_straight((core.bottom + core.top) / 2, straight_parts, piece_index);
   for (int pose = 0; pose <= poses; ++pose)
     append_slanted(at(static_cast<double>(pose) / poses), Vec3::Zero(), piece_index, 1);
@@ -237,6 +252,7 @@ void UnitSweeps::append_turn(const TurningPath& path, std::size_t piece_index) {
   for (const std::size_t end : {0U, 1U}) {
     const std::size_t index = shape().body_pieces + 2 * piece_index + end;
     const Frustum part = shape().pieces[index].core;
+    if (part.bottom > highest) continue;
     append_straight((part.bottom + part.top) / 2, straight_parts_of(part), index);
   }
 }

@@ -50,8 +50,8 @@ struct UnitSweep {
 /// short straight motions; the deviations are stated in stock.h.
 class UnitSweeps {
  public:
-  /// `spacing` is that of the dexels, mm.
-  UnitSweeps(std::span<const Sweep> sweeps, double spacing);
+  /// `spacing` is that of the dexels, mm. There is no material above `top`, mm.
+  UnitSweeps(std::span<const Sweep> sweeps, double spacing, double top);
 
   std::span<const UnitSweep> units() const { return units_; }
   const SweptShape& shape_of(const UnitSweep& unit) const { return shapes_[unit.shape]; }
@@ -75,6 +75,7 @@ class UnitSweeps {
   std::uint32_t shape_index(const solids::RevolvedBody& body, SweepPurpose purpose);
 
   double tolerance_;
+  double top_;
   std::vector<UnitSweep> units_;
   std::vector<SweptShape> shapes_;
   std::map<std::pair<const solids::RevolvedBody*, SweepPurpose>, std::uint32_t> shape_indexes_;
