@@ -67,7 +67,7 @@ void run_alone(benchmark::State& state, const Case& of) {
     simulation::Timing timing(of.machine, {.event =
                                                [&](const simulation::TimedEvent& timed) {
                                                  if (!timed.move) return;
-                                                 simulation::MadeMove made(of.machine.motion, *timed.move);
+                                                 kinematics::MadeMove made(of.machine.motion, *timed.move);
                                                  findings.take(timed.event.line, made);
                                                },
                                            .stretch = {}});

@@ -61,7 +61,7 @@ void RunReport::close(system::OutputFile& output, const std::string& name) {
 }
 
 void RunReport::take(const simulation::TimedEvent& timed) {
-  std::optional<simulation::MadeMove> made;
+  std::optional<kinematics::MadeMove> made;
   if (timed.move) made.emplace(machine_.motion, *timed.move);
   summary_.add(timed, made ? &*made : nullptr);
   if (made) findings_.take(timed.event.line, *made);

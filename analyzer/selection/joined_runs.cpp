@@ -75,7 +75,7 @@ JoinedRuns::Detour JoinedRuns::detour_of(RunSet runs) const {
 std::int32_t JoinedRuns::path_number(std::size_t line, RunSet runs) {
   const auto place = detours_.find(runs);
   Detour& detour = place != detours_.end() ? place->second : detours_.emplace(runs, detour_of(runs)).first->second;
-  const auto above = [line](const Path& path) {
+  const auto above = [line](const DecisionPath& path) {
     return std::partition_point(path.begin(), path.end(), [&](const RunDecision& each) { return each.line < line; });
   };
   const auto common_end = above(detour.common);
@@ -85,8 +85,9 @@ std::int32_t JoinedRuns::path_number(std::size_t line, RunSet runs) {
   const auto [known, is_new] = detour.numbers.emplace(steps, static_cast<std::int32_t>(joined_.paths.size()));
   if (!is_new) return known->second;
   // Where the runs share no decision, one of several paths is better than none.
-  joined_.paths.push_back(steps.first > 0 ? Path(detour.common.cbegin(), Path::const_iterator(common_end))
-                                          : Path(detour.of_one.cbegin(), Path::const_iterator(end_of_one)));
+  joined_.paths.push_back(steps.first > 0
+                              ? DecisionPath(detour.common.cbegin(), DecisionPath::const_iterator(common_end))
+                              : DecisionPath(detour.of_one.cbegin(), DecisionPath::const_iterator(end_of_one)));
   return known->second;
 }
 

@@ -26,13 +26,13 @@ class JoinedRuns {
                               std::uint32_t, double, double>;
   /// A set of runs, one bit each.
   using RunSet = std::uint32_t;
-  using Path = std::vector<simulation::RunDecision>;
+  using DecisionPath = std::vector<simulation::RunDecision>;
 
   static Identity identity_of(const simulation::RunFinding& finding);
   /// Decisions that lead a set of runs off the path of the first run.
   struct Detour {
-    Path common;                                                          ///< Those that all of the runs share.
-    Path of_one;                                                          ///< Those of the first of them.
+    DecisionPath common;                                                  ///< Those that all of the runs share.
+    DecisionPath of_one;                                                  ///< Those of the first of them.
     std::map<std::pair<std::size_t, std::size_t>, std::int32_t> numbers;  ///< Paths by the steps of each that count.
   };
 

@@ -44,7 +44,7 @@ class VgplValues {
   };
 
   /// A range of values without a constant inside, or a constant.
-  struct Cell {
+  struct ValueCell {
     double value = 0;      ///< One of its values.
     bool is_open = false;  ///< No run has taken the path of its values, and there are any.
   };
@@ -56,7 +56,7 @@ class VgplValues {
 
   std::vector<FlowStep> steps_;
   std::vector<double> constants_;   ///< Ascending.
-  std::vector<Cell> cells_;         ///< Below the first constant, the constant, above it, and so on.
+  std::vector<ValueCell> cells_;    ///< Below the first constant, the constant, above it, and so on.
   std::vector<std::size_t> order_;  ///< The cells as they are tried: integers first, ascending.
   std::vector<std::vector<MetJump>> runs_;
   std::optional<std::size_t> register_jump_;  ///< The topmost jump on a register that a run has not assigned.

@@ -64,12 +64,12 @@ void RunFindings::take(const running::Event& event) {
 
 void RunFindings::take(const RunWarning& warning) { report(warning.line, warning.id, warning.values); }
 
-void RunFindings::take(std::size_t line, MadeMove& made) {
+void RunFindings::take(std::size_t line, kinematics::MadeMove& made) {
   if (checks_travel_) look_at_travel(line, made);
   if (checks_speeds_) look_at_speeds(line, made);
 }
 
-void RunFindings::look_at_travel(std::size_t line, MadeMove& made) {
+void RunFindings::look_at_travel(std::size_t line, kinematics::MadeMove& made) {
   const kinematics::Move& move = made.move();
   std::array<bool, 2 * kinematics::kAxisCount> is_passed{};
   for (const kinematics::Overtravel& found : made.overtravels()) {
@@ -98,7 +98,7 @@ void RunFindings::look_at_travel(std::size_t line, MadeMove& made) {
   for (std::size_t i = 0; i < ends_.size(); ++i) ends_[i].is_passed = ends_[i].is_passed && is_passed[i];
 }
 
-void RunFindings::look_at_speeds(std::size_t line, MadeMove& made) {
+void RunFindings::look_at_speeds(std::size_t line, kinematics::MadeMove& made) {
   const kinematics::Move& move = made.move();
   if (move.feed.kind == kinematics::FeedKind::Rapid) return;
   const ProgrammedSpeeds speeds = programmed_speeds(move, made.tip_travel().length);
@@ -186,13 +186,12 @@ RunOutcome RunFindings::outcome(std::string_view text, const running::RunResult&
 RunOutcome outcome_of_run(std::string_view text, running::RunOptions options, const TimedMachine& machine) {
   RunFindings findings(machine);
   MachineCourse course(machine, machine.home);
-  const MachineCourse::Listeners listeners{
-      .move =
-          [&](const running::Event& event, const kinematics::Move& move) {
-            MadeMove made(machine.motion, move);
-            findings.take(event.line, made);
-          },
-      .warning = [&](const RunWarning& warning) { findings.take(warning); }};
+  const MachineCourse::Listeners listeners{.move =
+                                               [&](const running::Event& event, const kinematics::Move& move) {
+                                                 kinematics::MadeMove made(machine.motion, move);
+                                                 findings.take(event.line, made);
+                                               },
+                                           .warning = [&](const RunWarning& warning) { findings.take(warning); }};
   options.before_block = [&](const running::Block& block) { findings.take(block); };
   const running::RunResult result = run(text, options, [&](const running::Event& event) {
     findings.take(event);

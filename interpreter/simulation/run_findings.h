@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/kinematics/made_move.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/compensation.h"
-#include "interpreter/simulation/made_move.h"
 #include "interpreter/simulation/timing.h"
 #include "interpreter/syntax/finding.h"
 
@@ -65,7 +65,7 @@ class RunFindings {
   void take(const running::Event& event);
   void take(const RunWarning& warning);
   /// Takes a motion as the machine makes it, in the order of the run.
-  void take(std::size_t line, MadeMove& made);
+  void take(std::size_t line, kinematics::MadeMove& made);
 
   /// The outcome of a run that has ended. `text` is that of the program.
   RunOutcome outcome(std::string_view text, const running::RunResult& result) const;
@@ -84,8 +84,8 @@ class RunFindings {
     bool is_reported = false;
   };
 
-  void look_at_travel(std::size_t line, MadeMove& made);
-  void look_at_speeds(std::size_t line, MadeMove& made);
+  void look_at_travel(std::size_t line, kinematics::MadeMove& made);
+  void look_at_speeds(std::size_t line, kinematics::MadeMove& made);
   std::vector<RunFinding> marked(std::string_view text) const;
   void report(std::size_t line, dialect::DiagnosticId id, const std::array<double, dialect::kMaxArguments>& values,
               std::int32_t mistake = -1);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace isocnc::simulation {
 
 using execution::MoveKind;
@@ -39,11 +38,11 @@ static std::optional<Work> work_of(const running::Event& event) {
 
 void Summary::add(const TimedEvent& timed) {
   if (!timed.move) return add(timed, nullptr);
-  MadeMove made(machine_.motion, *timed.move);
+  kinematics::MadeMove made(machine_.motion, *timed.move);
   add(timed, &made);
 }
 
-void Summary::add(const TimedEvent& timed, MadeMove* made) {
+void Summary::add(const TimedEvent& timed, kinematics::MadeMove* made) {
   const running::Event& event = timed.event;
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what)) mount(tool->tool);
   if (const std::optional<Work> work = work_of(event)) spend(*work, timed.duration);
@@ -60,7 +59,7 @@ void Summary::spend(Work work, double seconds) {
   share().times[static_cast<std::size_t>(work)] += seconds;
 }
 
-void Summary::add_move(const running::MoveEvent& move, MadeMove& made, std::size_t line) {
+void Summary::add_move(const running::MoveEvent& move, kinematics::MadeMove& made, std::size_t line) {
   const kinematics::Move& real = made.move();
   const auto& [length, linear] = made.tip_travel();
   Travelled& travelled = moves_[static_cast<std::size_t>(move.kind)];
@@ -78,7 +77,7 @@ void Summary::add_move(const running::MoveEvent& move, MadeMove& made, std::size
   look_at_speeds(made, line);
 }
 
-void Summary::look_at_travel(MadeMove& made, std::size_t line) {
+void Summary::look_at_travel(kinematics::MadeMove& made, std::size_t line) {
   if (!checks_travel_) return;
   for (const kinematics::Overtravel& found : made.overtravels()) {
     const std::size_t side = found.position > found.limit ? 1 : 0;
@@ -89,7 +88,7 @@ void Summary::look_at_travel(MadeMove& made, std::size_t line) {
   }
 }
 
-void Summary::look_at_speeds(MadeMove& made, std::size_t line) {
+void Summary::look_at_speeds(kinematics::MadeMove& made, std::size_t line) {
   const ProgrammedSpeeds speeds = programmed_speeds(made.move(), made.tip_travel().length);
   ask_for(Limit::Feed, speeds.feed, line);
   ask_for(Limit::RotarySpeed, speeds.rotary, line);

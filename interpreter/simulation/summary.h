@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/kinematics/made_move.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/compensation.h"
 #include "interpreter/simulation/frame_extents.h"
-#include "interpreter/simulation/made_move.h"
 #include "interpreter/simulation/programmed_speeds.h"
 #include "interpreter/simulation/timing.h"
 
@@ -50,7 +50,7 @@ class Summary {
 
   void add(const TimedEvent& timed);
   /// The same, where others ask the motion as well. `made` is that of the event; null if it has none.
-  void add(const TimedEvent& timed, MadeMove* made);
+  void add(const TimedEvent& timed, kinematics::MadeMove* made);
   /// `joints` are the positions at the end.
   void finish(const running::RunResult& result, double seconds, const kinematics::Coordinates& joints,
               const std::vector<RunWarning>& warnings);
@@ -70,9 +70,9 @@ class Summary {
   ToolShare& share();
   void mount(std::optional<execution::ToolCode> tool);
   void spend(Work work, double seconds);
-  void add_move(const running::MoveEvent& move, MadeMove& made, std::size_t line);
-  void look_at_travel(MadeMove& made, std::size_t line);
-  void look_at_speeds(MadeMove& made, std::size_t line);
+  void add_move(const running::MoveEvent& move, kinematics::MadeMove& made, std::size_t line);
+  void look_at_travel(kinematics::MadeMove& made, std::size_t line);
+  void look_at_speeds(kinematics::MadeMove& made, std::size_t line);
   void ask_for(Limit limit, double value, std::size_t line);
   /// Programmed tip position at the end.
   geometry::Pose final_pose() const;

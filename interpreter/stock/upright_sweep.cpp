@@ -188,28 +188,28 @@ class BallTest {
     // The errors of floats: of places along the path, and of heights.
     const double error = 1e-6 * (path.length + 4 * column.radius + std::abs(middle_));
     square_ = static_cast<float>(square + 8 * column.radius * error + 1e-6 * square);
-    steps_ = static_cast<float>(step) * Group::LinSpaced(0, kGroup - 1);
+    steps_ = static_cast<float>(step) * RowGroup::LinSpaced(0, kGroup - 1);
   }
 
   bool is_usable() const { return is_usable_; }
   /// As measure() has it.
   bool are_below(const float* tops, double u, double rise) const {
-    const Group at = steps_ + static_cast<float>(u);
+    const RowGroup at = steps_ + static_cast<float>(u);
     const auto y = static_cast<float>(rise);
-    const Group along = at * direction_.x() + y * direction_.y();
-    const Group aside = at * direction_.y() - y * direction_.x();
-    const Group beyond = along - along.max(0.0F).min(length_);
-    const Group below = (middle_ - Eigen::Map<const Group>(tops)).max(0.0F);
+    const RowGroup along = at * direction_.x() + y * direction_.y();
+    const RowGroup aside = at * direction_.y() - y * direction_.x();
+    const RowGroup beyond = along - along.max(0.0F).min(length_);
+    const RowGroup below = (middle_ - Eigen::Map<const RowGroup>(tops)).max(0.0F);
     return !((square_ - aside.square() - beyond.square() - below.square()).maxCoeff() > 0);
   }
 
  private:
-  using Group = Eigen::Array<float, kGroup, 1>;
+  using RowGroup = Eigen::Array<float, kGroup, 1>;
   Eigen::Vector2f direction_;
   float length_;
   float middle_;
   float square_;
-  Group steps_;
+  RowGroup steps_;
   bool is_usable_;
 };
 

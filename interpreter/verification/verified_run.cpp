@@ -98,7 +98,7 @@ VerifiedRun verified_run(std::string_view text, running::RunOptions options, con
                             {.event =
                                  [&](const simulation::TimedEvent& timed) {
                                    if (timed.move) {
-                                     simulation::MadeMove made(machine.motion, *timed.move);
+                                     kinematics::MadeMove made(machine.motion, *timed.move);
                                      findings.take(timed.event.line, made);
                                    }
                                    verifier.take(timed);
