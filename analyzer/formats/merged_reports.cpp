@@ -110,9 +110,10 @@ std::string path_of(std::string_view uri) {
   return path;
 }
 
-/// Gives the files that a result names their number in the joined log.
+/// Gives the program that a result names its number in the joined log. Files that are no programs have none.
 void renumber(OrderedJson& json, std::size_t number) {
-  if (json.is_object() && json.contains("artifactLocation")) json["artifactLocation"]["index"] = number;
+  if (json.is_object() && json.contains("artifactLocation") && json["artifactLocation"].contains("index"))
+    json["artifactLocation"]["index"] = number;
   if (json.is_structured())
     for (OrderedJson& each : json) renumber(each, number);
 }

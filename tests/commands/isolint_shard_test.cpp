@@ -24,6 +24,9 @@ class IsolintShards : public testing::Test {
     const std::string broken = ISOCNC_SOURCE_DIR "/examples/broken";
     std::filesystem::copy(broken, folder_.path("broken"));
     std::filesystem::copy(broken, folder_.path("a [folder]%"));
+    // Findings there have places in other files than programs.
+    std::filesystem::copy(ISOCNC_SOURCE_DIR "/examples/setups", folder_.path("setups"),
+                          std::filesystem::copy_options::recursive);
     folder_.write("Z/clean.iso", kCleanProgram);
     folder_.write("[a.iso", kBrokenProgram);
     folder_.write("b.iso", kWarnedProgram);
