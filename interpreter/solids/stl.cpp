@@ -130,12 +130,17 @@ class StlText {
   /// Returns whether anything is left.
   bool skip_blanks() {
     for (; at_ < text_.size() && is_blank(text_[at_]); ++at_)
-      if (text_[at_] == '\n') ++line_;
+      if (ends_line()) ++line_;
     word_ = at_;
     return at_ < text_.size();
   }
 
-  void skip_name() { at_ = std::min(text_.find('\n', at_), text_.size()); }
+  /// A line ends with LF, CR LF or CR.
+  bool ends_line() const {
+    return text_[at_] == '\n' || (text_[at_] == '\r' && !text_.substr(at_ + 1).starts_with('\n'));
+  }
+
+  void skip_name() { at_ = std::min(text_.find_first_of("\r\n", at_), text_.size()); }
 
   /// Empty, with a problem, at the end.
   std::string_view next_word() {
@@ -183,7 +188,10 @@ bool starts_as_text(std::string_view bytes) {
 
 TrianglesOrProblem read_stl(std::string_view bytes) {
   if (bytes.empty()) return StlProblem{.kind = StlKind::Empty};
-  if (!is_binary(bytes) && starts_as_text(bytes)) return StlText(bytes).read();
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  std::string_view text = bytes;
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  if (!is_binary(bytes) && starts_as_text(text)) return StlText(text).read();
   return read_binary(bytes);
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <string>
@@ -64,6 +65,13 @@ TEST(Stl, ReadsTextInAnyCaseWithAnyBlanks) {
   EXPECT_EQ(triangles_of(read_stl(text)).size(), 1U);
   EXPECT_EQ(triangles_of(read_stl(text_with_coordinate("+1.25E+01")))[0].corners[1].x(), 12.5);
   EXPECT_EQ(triangles_of(read_stl(text_with(kFacet) + "\n" + text_with(kFacet + kFacet))).size(), 3U);
+}
+
+TEST(Stl, ReadsTextWithAByteOrderMarkAndLoneCarriageReturns) {
+  EXPECT_EQ(triangles_of(read_stl("\xEF\xBB\xBF" + text_with(kFacet))).size(), 1U);
+  std::string text = text_with(kFacet);
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  EXPECT_EQ(triangles_of(read_stl(text)).size(), 1U);
 }
 
 TEST(Stl, ReadsBinary) {
