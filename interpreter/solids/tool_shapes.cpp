@@ -141,14 +141,25 @@ MaybeProblem problem_of_point(std::span<const FormPoint> points, std::size_t row
   return problem_of(point.radius, ShapeValue::PointRadius, Zero::Allowed, row);
 }
 
-/// The frustums between neighboring points that enclose a volume.
+/// Whether the step up to a point is a face of the frustum below or above it. Otherwise it is a disc of no thickness.
+bool is_part_of_neighbors(std::span<const FormPoint> points, std::size_t step) {
+  const FormPoint& low = points[step - 1];
+  const FormPoint& high = points[step];
+  const bool is_of_below = step >= 2 && points[step - 2].z < low.z && low.radius >= high.radius;
+  const bool is_of_above = step + 1 < points.size() && points[step + 1].z > high.z && high.radius >= low.radius;
+  return is_of_below || is_of_above;
+}
+
+/// The frustums between neighboring points, and the discs that stand out from them.
 std::vector<BodyPiece> pieces_between(std::span<const FormPoint> points) {
   std::vector<BodyPiece> pieces;
   for (std::size_t i = 1; i < points.size(); ++i) {
     const FormPoint& low = points[i - 1];
     const FormPoint& high = points[i];
-    if (high.z > low.z && low.radius + high.radius > 0)
-      pieces.push_back({.core = {low.z, low.radius, high.z, high.radius}});
+    if (low.radius + high.radius == 0) continue;
+    const bool is_step = high.z == low.z;
+    const bool is_covered = is_step && is_part_of_neighbors(points, i);
+    if (!is_covered) pieces.push_back({.core = {low.z, low.radius, high.z, high.radius}});
   }
   return pieces;
 }
@@ -160,7 +171,9 @@ BodyOrProblem form_body(std::span<const FormPoint> points) {
   for (std::size_t row = 0; row < points.size(); ++row)
     if (const MaybeProblem problem = problem_of_point(points, row)) return *problem;
   std::vector<BodyPiece> pieces = pieces_between(points);
-  if (pieces.empty()) return ShapeProblem{.kind = ShapeKind::WithoutVolume, .value = ShapeValue::Points};
+  const auto has_height = [](const BodyPiece& piece) { return piece.core.top > piece.core.bottom; };
+  if (std::none_of(pieces.begin(), pieces.end(), has_height))
+    return ShapeProblem{.kind = ShapeKind::WithoutVolume, .value = ShapeValue::Points};
   return RevolvedBody(std::move(pieces));
 }
 

@@ -77,6 +77,16 @@ TEST(ToolShapes, FormFollowsItsPoints) {
   EXPECT_NEAR(distance_to(tool, 8, 4), 1, 2e-7);  // In the groove, below the step.
 }
 
+/// A rim without thickness is a disc, wherever it is.
+TEST(ToolShapes, FormHasItsThinRims) {
+  const std::vector<FormPoint> at_the_end = {{0, 4}, {10, 4}, {10, 20}};
+  const RevolvedBody tool = body(form_body(at_the_end));
+  EXPECT_NEAR(distance_to(tool, 21, 10), 1, 2e-7);
+  EXPECT_NEAR(distance_to(tool, 19, 8), 2, 2e-7);
+  const std::vector<FormPoint> between = {{0, 4}, {10, 4}, {10, 20}, {10, 4}, {20, 4}};
+  EXPECT_NEAR(distance_to(body(form_body(between)), 19, 13), 3, 2e-7);
+}
+
 TEST(ToolShapes, StackStandsOnItsBase) {
   const std::vector<StackRow> rows = {{35, 50, 50}, {42, 50, 63}};
   const RevolvedBody holder = body(stacked_body(rows, 120.5));
