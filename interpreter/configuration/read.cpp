@@ -115,12 +115,14 @@ static std::optional<std::string> same_name_elsewhere(std::string_view name) {
   return found;
 }
 
-static std::optional<std::string> meant_key(std::string_view written, const std::vector<const Key*>& keys) {
+/// A file of one setup has no other objects.
+static std::optional<std::string> meant_key(std::string_view written, const std::vector<const Key*>& keys,
+                                            bool is_of_setup_file) {
   std::vector<std::string> names;
   names.reserve(keys.size());
   for (const Key* key : keys) names.emplace_back(key->name());
   if (auto near = dialect::nearest_name(written, names)) return near;
-  return same_name_elsewhere(written);
+  return is_of_setup_file ? std::nullopt : same_name_elsewhere(written);
 }
 
 namespace {
@@ -135,6 +137,7 @@ class ConfigurationReader {
     if (root.kind != JsonKind::Object)
       return complain(root.at, "", mistakes::kWrongKind, {name_of(root.kind), name_of(JsonKind::Object)});
     root_ = &root;
+    is_of_setup_file_ = key != nullptr;
     read_members(root, key, "", {});
     if (!result_.mistakes.empty()) return;
     for (const Judged& each : judged_)
@@ -246,7 +249,7 @@ class ConfigurationReader {
           std::find_if(keys.begin(), keys.end(), [&](const Key* each) { return each->name() == member.key; });
       if (is_duplicate(member, seen, below)) continue;
       if (known == keys.end()) {
-        complain(member.at, below, mistakes::kUnknownKey, {}, meant_key(member.key, keys));
+        complain(member.at, below, mistakes::kUnknownKey, {}, meant_key(member.key, keys, is_of_setup_file_));
       } else {
         read_value(**known, member.value, below, index);
       }
@@ -469,6 +472,7 @@ class ConfigurationReader {
   PlaceFinder places_;
   ReadConfiguration& result_;
   const JsonValue* root_ = nullptr;
+  bool is_of_setup_file_ = false;
   std::vector<Judged> judged_;
 };
 
