@@ -1387,7 +1387,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .message = {.en = "{who} hits {whom}: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start",
                  .it = "{who} urta {whom}: entra di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
      .explanation =
-         {.en = "On the way that the machine really goes, the tool, its holder, the spindle nose or the head meets a "
+         {.en = "On the path that the machine really takes, the tool, its holder, the spindle nose or the head meets a "
                 "cup, a clamp or a stop of the setup. The finding stands where it first touches and gives the deepest "
                 "place, in the frame in force; motions that go on through the same obstacle belong to it. Lift the "
                 "tool, go around, or move the fixture. If nothing of the kind happens at the machine, the setup in "
@@ -1410,11 +1410,12 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .message = {.en = "{who} hits {whom}: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start",
                  .it = "{who} urta {whom}: entra di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
      .explanation =
-         {.en = "On the way that the machine really goes, a moving body meets the table, another body of the machine, "
-                "or the spoilboard deeper than the setup allows. The finding stands where it first touches and gives "
-                "the deepest place, in the frame in force; motions that go on in the same body belong to it. Check Z, "
-                "the workpiece origin and the length of the tool. Where cutting into the spoilboard is meant, "
-                "spoilboard.allow of the setup says how deep.",
+         {.en =
+              "On the path that the machine really takes, a moving body meets the table, another body of the machine, "
+              "or the spoilboard deeper than the setup allows. The finding stands where it first touches and gives "
+              "the deepest place, in the frame in force; motions that go on in the same body belong to it. Check Z, "
+              "the workpiece origin and the length of the tool. Where cutting into the spoilboard is meant, "
+              "spoilboard.allow of the setup says how deep.",
           .it = "Sul percorso che la macchina compie davvero, un corpo in movimento incontra la tavola, un'altra parte "
                 "della macchina, o il piano martire più a fondo di quanto l'attrezzaggio permetta. La segnalazione è "
                 "dove lo tocca per la prima volta e dà il punto più profondo, nel sistema di riferimento in presa; i "
@@ -1455,7 +1456,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                  .it = "l'asse {axis} della macchina esce dalla corsa: arriva a {reached}, e la corsa finisce a "
                        "{limit}"},
      .explanation =
-         {.en = "On the way of this motion a joint of the machine passes the end of its travel. The joints X, Y and Z "
+         {.en = "During this motion a joint of the machine passes the end of its travel. The joints X, Y and Z "
                 "are those of the spindle nose: the length of the tool, and what B and C of the head swing, lie "
                 "between it and the tip. Motions that go on outside belong to the same finding, which gives the "
                 "farthest place. Check the workpiece origin, the tool and the angles, or the limits in isocnc.json. No "
@@ -2000,7 +2001,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
               "l'asse {axis} va fuori corsa: arriva a {reached} in coordinate macchina, e la corsa finisce a {limit}"},
      .explanation =
          {.en =
-              "On the way of this motion, the bulge of an arc included, the tool tip leaves the travel that the "
+              "During this motion, the bulge of an arc included, the tool tip leaves the travel that the "
               "machine "
               "file gives, in machine coordinates. Check the coordinate and the workpiece origin, or the file. A false "
               "alarm where the file gives the travel of the joints of a tilting head, which is not that of the tip.",
