@@ -76,7 +76,8 @@ class BodyMaker {
                       .role = BodyRole::Spoilboard,
                       .on = Link::Machine,
                       .shape = box,
-                      .described = described(file_, board.place)});
+                      .described = described(file_, board.place),
+                      .is_endless = !board.area});
   }
 
  private:
@@ -118,6 +119,7 @@ Scene make_scene(const MachineConfiguration& machine, const std::optional<Locate
   Scene scene;
   add_machine(machine, meshes, scene);
   scene.name = machine.file.generic_string();
+  scene.has_setup = located.has_value();
   if (!located) return scene;
   const DescribedSetup& setup = located->setup;
   scene.name = located->file.generic_string();

@@ -64,4 +64,9 @@ Link workpiece_link(const Kinematics& kinematics) {
   return kinematics.kind == MachineKind::Table ? Link::C : Link::Machine;
 }
 
+geometry::Vec3 point_on_link(const Kinematics& kinematics, Link in, Link of, const Coordinates& joints,
+                             const geometry::Vec3& point) {
+  return link_pose(kinematics, in, joints).inverse() * (link_pose(kinematics, of, joints) * point);
+}
+
 }  // namespace isocnc::kinematics

@@ -17,6 +17,10 @@ enum class Link : std::uint8_t { Machine, X, Y, Z, C, B };
 /// at 0, when the spindle nose is at the machine's origin, to its place now; machine frame, mm.
 Eigen::Isometry3d link_pose(const Kinematics& kinematics, Link link, const Coordinates& joints);
 
+/// Returns a point of the frame of the link `of` in the frame of the link `in`, mm.
+geometry::Vec3 point_on_link(const Kinematics& kinematics, Link in, Link of, const Coordinates& joints,
+                             const geometry::Vec3& point);
+
 /// The link that carries the spindle, with the tool.
 Link spindle_link(const Kinematics& kinematics);
 /// The link that carries the workpiece.

@@ -93,9 +93,9 @@ class PairsMaker {
     for (const SceneBody& body : scene_.machine) {
       if (carries_spindle(body.on)) {
         add_body(PartKind::MachineBody, body, body.on, Vec3::Zero());
-        // A head that tilts may turn the tool into what carries it.
-        const bool is_own = kinematics_.kind == MachineKind::Head && body.on <= Link::Z;
-        if (!is_own) continue;
+        // The tool moves towards what carries it: along Y and Z past a gantry, and a head turns it towards the ram.
+        const Link last = kinematics_.kind == MachineKind::Head ? Link::Z : Link::Y;
+        if (body.on > last) continue;
       } else if (body.on != Link::Machine) {
         add_body(PartKind::MachineBody, body, body.on, Vec3::Zero());
       }
@@ -109,12 +109,11 @@ class PairsMaker {
       Obstacle obstacle{
           .body = &body, .shape = body.shape, .on = kinematics::workpiece_link(kinematics_), .name = body_name(body)};
       if (scene_.is_in_workpiece_frame) obstacle.shift = origin;
-      if (obstacle.on != Link::Machine) add_body(PartKind::SetupBody, body, obstacle.on, obstacle.shift);
+      // A board whose ends are not known cannot be compared with the machine around the table.
+      if (obstacle.on != Link::Machine && !body.is_endless)
+        add_body(PartKind::SetupBody, body, obstacle.on, obstacle.shift);
       auto* const box = std::get_if<solids::Cuboid>(&obstacle.shape);
-      if (body.role == BodyRole::Spoilboard && box) {
-        box->maximum.z() -= kSlack;
-        obstacle.slack = kSlack;
-      }
+      if (body.role == BodyRole::Spoilboard && box) box->maximum.z() -= kSlack;
       result_.obstacles.push_back(std::move(obstacle));
     }
   }
@@ -133,10 +132,13 @@ class PairsMaker {
     if (!may_meet(part, obstacle)) return;
     BodyPair pair{.part = part_index, .obstacle = obstacle_index, .revolved = part.revolved, .limit = kContactDistance};
     if (obstacle.body->role == BodyRole::Target && part.kind == PartKind::Cutter) {
-      std::optional<solids::RevolvedBody> reduced = part.revolved->reduced(std::max(scene_.target_tolerance, kSlack));
+      std::optional<solids::RevolvedBody> reduced = part.revolved->reduced(scene_.target_tolerance + kSlack);
       if (!reduced) return;
       pair.revolved = &result_.reduced.emplace_back(*std::move(reduced));
+      pair.slack = kSlack;
     }
+    if (obstacle.body->role == BodyRole::Spoilboard && std::holds_alternative<solids::Cuboid>(obstacle.shape))
+      pair.slack = kSlack;
     const bool is_cutting = part.kind == PartKind::Cutter || part.kind == PartKind::Shank;
     const BodyRole role = obstacle.body->role;
     // Bodies of a machine pass one another closely by design.

@@ -32,9 +32,13 @@ struct Obstacle {
   BodyShape shape;  ///< In its own frame, which is that of its link after `shift`.
   Link on = Link::Machine;
   geometry::Vec3 shift = geometry::Vec3::Zero();  ///< From the link's frame to the shape's frame, mm.
-  double slack = 0;  ///< By how much the body is above the shape, mm; counted to the depth of a contact.
   dialect::GivenName name;
 };
+
+/// What moves as one: the tool with its holder and the nose, or a body of its own. A contact is one of a mover with an
+/// obstacle.
+using Mover = std::size_t;
+inline constexpr Mover kSpindle = 0;
 
 /// A part and an obstacle that motions bring together, with what bounds their speed.
 struct BodyPair {
@@ -47,6 +51,7 @@ struct BodyPair {
   double limit = 0;            ///< What comes nearer is looked at, mm: at least the contact distance.
   bool reports_near = false;   ///< Whether coming nearer than `limit` without a contact is reported (W154).
   bool is_watched = false;     ///< Whether the part should keep away from the obstacle at all.
+  double slack = 0;            ///< By how much the compared shapes are smaller than what counts, mm.
   double reach_tip = kNever;   ///< Largest distance of the part's points from the tip, mm.
   double reach_axes = kNever;  ///< ... from the rotary axes that are between both, mm.
   bool shifts = true;          ///< Whether the linear joints are between both.
@@ -68,6 +73,11 @@ struct BodyPairs {
   std::deque<solids::RevolvedBody> reduced;  ///< Cutters without the depth to which they may go into the target.
   double tool_length = 0;                    ///< mm
 };
+
+/// The mover that a part belongs to.
+inline Mover mover_of(const BodyPairs& bodies, std::size_t part) {
+  return bodies.parts[part].revolved ? kSpindle : 1 + part;
+}
 
 /// What is nearer than this is a contact, mm; twice what is certainly found.
 inline constexpr double kContactDistance = 0.02;

@@ -10,6 +10,7 @@
 #include "interpreter/dialect/given_name.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/geometry/frame.h"
+#include "interpreter/verification/body_pairs.h"
 #include "interpreter/verification/scene.h"
 
 namespace isocnc::verification {
@@ -22,13 +23,16 @@ struct Contact {
   double time = 0;           ///< Of the first touch, or of the nearest place; seconds since the start of the run.
   double end_time = 0;       ///< Of the last touch, seconds.
   execution::ToolCode tool;  ///< All 0: none is mounted.
-  dialect::GivenName who;    ///< The moving body.
+  dialect::GivenName who;    ///< The moving body that is nearest, or deepest.
   dialect::GivenName whom;   ///< The obstacle.
   double distance = 0;       ///< Smallest distance, mm; negative: the largest depth.
-  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Of the obstacle, at that place; mm, machine frame, joints at 0.
-  geometry::Frame frame;                          ///< In force at that place; in the machine frame.
-  std::int32_t mistake = -1;                      ///< Equal for contacts of the same tool with the same obstacle.
-  BodyDescription described;                      ///< Where the obstacle is described.
+  /// Of the obstacle, at that place; mm, machine frame of the program: on a table that turns it turns with the
+  /// workpiece.
+  geometry::Vec3 point = geometry::Vec3::Zero();
+  geometry::Frame frame;  ///< In force at that place; in the machine frame.
+  Mover mover = kSpindle;
+  std::int32_t mistake = -1;  ///< Equal for contacts of the same mover, with the same tool, with the same obstacle.
+  BodyDescription described;  ///< Where the obstacle is described.
 
   bool is_near_miss() const;
 };
@@ -55,7 +59,8 @@ struct Certificate {
   std::size_t motions = 0;   ///< Motions of the machine that were examined.
   std::size_t contacts = 0;  ///< Near misses do not count.
   double epsilon = 0;        ///< Nothing nearer than this is unseen, mm.
-  std::string scene;         ///< The file that describes the setup, as shown to users.
+  std::string scene;         ///< The file that describes the setup, or the machine; as shown to users.
+  bool has_setup = true;     ///< Whether a setup is for the program.
   std::vector<Unverified> gaps;
   std::size_t more_contacts = 0;          ///< Contacts beyond those that are kept.
   std::optional<std::size_t> stopped_at;  ///< The line at which an error stopped the run; from 0.

@@ -28,7 +28,7 @@ void ContactLog::take(const Encounter& encounter, const StretchPlace& at, const 
                       const execution::ToolCode& tool) {
   const BodyPair& pair = bodies.pairs[encounter.pair];
   const Obstacle& obstacle = bodies.obstacles[pair.obstacle];
-  const auto [known, is_new] = open_.try_emplace(pair.obstacle);
+  const auto [known, is_new] = open_.try_emplace({pair.obstacle, mover_of(bodies, pair.part)});
   Episode& episode = known->second;
   if (!is_new && at.number > episode.last_stretch + 1) close(episode);
   Contact& contact = episode.contact;
@@ -36,6 +36,7 @@ void ContactLog::take(const Encounter& encounter, const StretchPlace& at, const 
     episode = {};
     contact.distance = std::numeric_limits<double>::infinity();
     contact.tool = tool;
+    contact.mover = mover_of(bodies, pair.part);
     contact.whom = obstacle.name;
     contact.described = obstacle.body->described;
   }
@@ -44,7 +45,6 @@ void ContactLog::take(const Encounter& encounter, const StretchPlace& at, const 
   const dialect::GivenName who = bodies.parts[pair.part].name;
   if (encounter.is_contact) {
     if (!episode.has_touched || encounter.first_touch < contact.time) {
-      contact.who = who;
       contact.line = at.line;
       contact.time = encounter.first_touch;
     }
@@ -60,11 +60,12 @@ void ContactLog::take(const Encounter& encounter, const StretchPlace& at, const 
   if (!is_first_touch && !(encounter.distance < contact.distance)) return;
   if (!episode.has_touched) {
     contact.id = "near-miss"_diag;
-    contact.who = who;
     contact.line = contact.end_line = at.line;
     contact.time = contact.end_time = encounter.nearest_time;
   }
-  if (encounter.distance < contact.distance) {
+  // After a near miss the touch counts, even if it is no nearer.
+  if (is_first_touch || encounter.distance < contact.distance) {
+    contact.who = who;
     contact.distance = encounter.distance;
     contact.point = encounter.point;
     contact.frame = at.frame;
@@ -92,10 +93,12 @@ std::vector<Contact> ContactLog::contacts() const {
     return a.time != b.time ? a.time < b.time : a.whom.number < b.whom.number;
   });
   // One slip with a tool repeats at an obstacle.
-  std::map<std::tuple<dialect::DiagnosticId, std::uint32_t, execution::ToolCode>, std::int32_t> mistakes;
+  using Cause = std::tuple<dialect::DiagnosticId, Mover, std::uint32_t, BodyDescription, execution::ToolCode>;
+  std::map<Cause, std::int32_t> mistakes;
   for (Contact& contact : sorted) {
     const auto next = static_cast<std::int32_t>(mistakes.size());
-    contact.mistake = mistakes.try_emplace({contact.id, contact.whom.number, contact.tool}, next).first->second;
+    const Cause cause(contact.id, contact.mover, contact.whom.number, contact.described, contact.tool);
+    contact.mistake = mistakes.try_emplace(cause, next).first->second;
   }
   return sorted;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "interpreter/verification/contact.h"
@@ -16,8 +17,8 @@ struct StretchPlace {
   geometry::Frame frame;   ///< In force; in the machine frame.
 };
 
-/// Puts encounters together: what comes near an obstacle and leaves it again is one contact or one near miss, however
-/// many motions it takes and whichever part of the tool is nearest.
+/// Puts encounters together: a mover that comes near an obstacle and leaves it again is one contact or one near miss,
+/// however many motions it takes and whichever part of the tool is nearest.
 class ContactLog {
  public:
   /// Takes an encounter; in the order of the stretches.
@@ -44,7 +45,7 @@ class ContactLog {
 
   static constexpr std::size_t kMaxContacts = 10'000;
 
-  std::map<std::size_t, Episode> open_;  ///< By obstacle.
+  std::map<std::pair<std::size_t, Mover>, Episode> open_;  ///< By obstacle and what comes near it.
   std::vector<Contact> contacts_;
   std::size_t count_ = 0;
   std::size_t left_out_ = 0;

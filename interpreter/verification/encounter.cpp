@@ -83,6 +83,12 @@ class StretchPlaces {
     return {place * Vec3(0, 0, offset - stretch_.path.tool_length) - obstacle.shift, axis};
   }
 
+  /// A point of a link's frame in the frame of the workpiece's link, in which the program counts; at `s`.
+  Vec3 on_workpiece(double s, const Vec3& point, Link on) const {
+    const Link workpiece = kinematics::workpiece_link(kinematics_);
+    return on == workpiece ? point : point_on_link(kinematics_, workpiece, on, joints_at(s), point);
+  }
+
   /// Where another part is at `s`, in the frame of an obstacle.
   Placement body_at(double s, const MovingPart& part, const Obstacle& obstacle) const {
     const kinematics::Coordinates joints = joints_at(s);
@@ -373,11 +379,11 @@ class Examination {
   void take_nearest(const StretchPlaces& places, const BodyPair& pair, double s, const Clearance& clearance,
                     Encounter& encounter) const {
     const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
-    const double nearest = clearance.upper - obstacle.slack;
+    const double nearest = clearance.upper - pair.slack;
     if (!(nearest < encounter.distance)) return;
     encounter.distance = nearest;
     encounter.nearest_time = places.time_at(s);
-    encounter.point = clearance.on_obstacle + obstacle.shift;
+    encounter.point = places.on_workpiece(s, clearance.on_obstacle + obstacle.shift, obstacle.on);
   }
 
   void undecided() {

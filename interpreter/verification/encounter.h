@@ -15,7 +15,7 @@ struct Encounter {
   std::size_t pair = 0;     ///< Index of the pair.
   double distance = 0;      ///< Smallest distance that was found, mm; negative: how deep they overlap.
   double nearest_time = 0;  ///< When it was found; seconds since the start of the run.
-  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Of the obstacle, there; mm, machine frame with all joints at 0.
+  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Of the obstacle, there; mm, as in Contact.
   bool is_contact = false;
   double first_touch = 0;  ///< Time of the first touch, if there is a contact.
   double last_touch = 0;   ///< Time of the last touch.

@@ -42,6 +42,7 @@ struct SceneBody {
   Link on = Link::Machine;
   BodyShape shape;
   BodyDescription described;
+  bool is_endless = false;  ///< It has no ends that are known: the shape is only large.
 };
 
 /// The bodies of a tool: z = 0 at the tip, growing to the spindle nose at z = `length`, mm.
@@ -65,7 +66,8 @@ struct Scene {
   bool is_in_workpiece_frame = true;  ///< The frame of `setup`: that of the first G92, else the machine's.
   double clearance = 2;               ///< What is nearer, without a contact, is a near miss (W154); mm.
   double target_tolerance = 0;        ///< Gouges of the target up to this depth are accepted, mm.
-  std::string name;                   ///< The file that describes the setup, as shown to users.
+  std::string name;                   ///< The file that describes the setup, or the machine; as shown to users.
+  bool has_setup = true;              ///< Otherwise these are the bodies of the machine alone.
 };
 
 /// The box around a shape, in its frame, mm.

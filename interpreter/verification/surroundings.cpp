@@ -62,8 +62,10 @@ std::vector<Neighbor> neighbors_at(const BodyPairs& bodies, const kinematics::Ki
         pair.revolved
             ? distance_to(obstacle.shape, *pair.revolved, {place.translation(), place.linear().col(2)}, solids::kExact)
             : distance_to(obstacle.shape, part.body->shape, place, solids::kExact);
-    nearest.take(pair, found.upper - obstacle.slack, found.on_obstacle + obstacle.shift,
-                 found.upper <= kContactDistance);
+    nearest.take(
+        pair, found.upper - pair.slack,
+        point_on_link(kinematics, workpiece_link(kinematics), obstacle.on, joints, found.on_obstacle + obstacle.shift),
+        found.upper <= kContactDistance);
   }
   return nearest.sorted();
 }

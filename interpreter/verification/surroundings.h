@@ -19,7 +19,7 @@ struct Neighbor {
   /// The distance of what should stay away from it, mm: not of a cutter from the spoilboard or the finished part, which
   /// it may touch.
   double clearance = std::numeric_limits<double>::infinity();
-  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Of the obstacle; mm, machine frame with all joints at 0.
+  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Of the obstacle; mm, as in Contact.
   bool touches = false;                           ///< See is_contact().
 
   /// Whether a motion to here is a contact. The cutter touches none of the board that it is allowed to cut.

@@ -54,6 +54,8 @@ static std::string in_words(const Unverified& gap, Language language) {
 static std::vector<std::string> not_verified(const Certificate& certificate, Language language) {
   std::vector<std::string> gaps;
   for (const Unverified& each : certificate.gaps) gaps.push_back(in_words(each, language));
+  if (!certificate.has_setup)
+    gaps.emplace_back(Text{"no setup is for this program", "nessun attrezzaggio è per questo programma"}.in(language));
   if (certificate.stopped_at)
     gaps.push_back(dialect::format(Text{"what follows the error on line {}", "ciò che segue l'errore alla linea {}"},
                                    language, *certificate.stopped_at + 1));
@@ -61,12 +63,16 @@ static std::vector<std::string> not_verified(const Certificate& certificate, Lan
 }
 
 std::string in_words(const Certificate& certificate, Language language) {
-  std::string line = dialect::format(
-      Text{"verified: {}, {}; nothing nearer than {} mm unseen in the setup of {}",
-           "verificato: {}, {}; nulla di più vicino di {} mm sfugge nell'attrezzaggio di {}"},
-      language, counted(certificate.motions, {"motion", "movimento"}, {"motions", "movimenti"}, language),
-      counted(certificate.contacts, {"contact", "contatto"}, {"contacts", "contatti"}, language), certificate.epsilon,
-      certificate.scene);
+  static constexpr Text kInSetup = {"verified: {}, {}; nothing nearer than {} mm unseen in the setup of {}",
+                                    "verificato: {}, {}; nulla di più vicino di {} mm sfugge nell'attrezzaggio di {}"};
+  static constexpr Text kOfMachine = {
+      "verified: {}, {}; nothing nearer than {} mm unseen between the bodies of the machine in {}",
+      "verificato: {}, {}; nulla di più vicino di {} mm sfugge tra i corpi della macchina in {}"};
+  std::string line =
+      dialect::format(certificate.has_setup ? kInSetup : kOfMachine, language,
+                      counted(certificate.motions, {"motion", "movimento"}, {"motions", "movimenti"}, language),
+                      counted(certificate.contacts, {"contact", "contatto"}, {"contacts", "contatti"}, language),
+                      certificate.epsilon, certificate.scene);
   const std::vector<std::string> gaps = not_verified(certificate, language);
   if (gaps.empty()) return line;
   return line + dialect::format(Text{"; not verified: {}", "; non verificato: {}"}, language, fmt::join(gaps, ", "));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -18,9 +19,10 @@ using simulation::RunFinding;
 static double rounded(double value, double unit) { return std::round(value / unit) * unit; }
 
 syntax::Finding finding_of(const Contact& contact) {
-  constexpr double kSmallestDepth = 0.01;
+  constexpr double kSmallestAmount = 0.01;
   const geometry::Vec3 point = contact.frame.to_inner(contact.point);
-  const double amount = std::max(kSmallestDepth, rounded(std::abs(contact.distance), 0.01));
+  const double signed_amount = contact.is_near_miss() ? contact.distance : -contact.distance;
+  const double amount = std::max(kSmallestAmount, rounded(signed_amount, 0.01));
   return {
       .id = contact.id,
       .values = {amount, rounded(point.x(), 0.01), rounded(point.y(), 0.01), rounded(point.z(), 0.01),
@@ -50,13 +52,28 @@ syntax::Finding finding_of(const Unverified& gap) {
   return {.id = cause.id, .cause = cause.number, .values = {static_cast<double>(gap.paths)}, .names = {gap.name}};
 }
 
+/// The contacts as findings show them. Of one mistake the first stands for all, and shows the deepest place of all.
+static std::vector<Contact> shown_contacts(const std::vector<Contact>& contacts) {
+  std::vector<Contact> shown = contacts;
+  std::map<std::int32_t, Contact*> firsts;
+  for (Contact& contact : shown) {
+    Contact& first = *firsts.try_emplace(contact.mistake, &contact).first->second;
+    if (!(contact.distance < first.distance)) continue;
+    first.who = contact.who;
+    first.distance = contact.distance;
+    first.point = contact.point;
+    first.frame = contact.frame;
+  }
+  return shown;
+}
+
 /// Adds what a scene has shown to the findings of a run, in their order.
 static void add_findings(simulation::RunOutcome& outcome, const std::vector<Contact>& contacts,
                          const Certificate& certificate, std::string_view text) {
   std::vector<RunFinding> found;
   std::int32_t mistakes = 0;
   for (const RunFinding& each : outcome.findings) mistakes = std::max(mistakes, each.mistake + 1);
-  for (const Contact& contact : contacts)
+  for (const Contact& contact : shown_contacts(contacts))
     found.push_back({.line = contact.line,
                      .finding = finding_of(contact),
                      .mistake = mistakes + contact.mistake,

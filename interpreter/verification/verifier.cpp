@@ -24,10 +24,12 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
       bodies_(pairs_of(scene, machine.motion.kinematics, {}, origin)) {
   certificate_.epsilon = kContactDistance / 2;
   certificate_.scene = scene.name;
+  certificate_.has_setup = scene.has_setup;
 }
 
 void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
   if (stretch.ends_move) ++certificate_.motions;
+  rest_.reset();
   stretches_.push_back(stretch);
   waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1});
   if (stretches_.size() == kBatch) examine_waiting();
@@ -38,7 +40,8 @@ void Verifier::take(const simulation::TimedEvent& event) {
     const geometry::Frame face = frame->face_mounted ? frame->face : geometry::Frame();
     frames_.push_back({.origin = frame->workpiece_origin + face.origin, .axes = face.axes});
   }
-  if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what)) mount(tool->tool, event.event.line);
+  if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what))
+    mount(tool->tool, event.event.line, event.start + event.duration);
 }
 
 MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool) {
@@ -48,12 +51,25 @@ MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& mac
           .length = machine.tool_length(tool)};
 }
 
-void Verifier::mount(const execution::ToolCode& tool, std::size_t line) {
+/// The machine at the end of a stretch, with another tool.
+static motion::Stretch rest_after(const motion::Stretch& stretch, const kinematics::Kinematics& kinematics,
+                                  double tool_length, double time) {
+  motion::Stretch rest{.start = time, .phase_count = 1};
+  rest.path.is_of_joints = true;
+  rest.path.c[0] = stretch.at(kinematics, stretch.start + stretch.duration).joints;
+  rest.path.tool_length = tool_length;
+  return rest;
+}
+
+void Verifier::mount(const execution::ToolCode& tool, std::size_t line, double time) {
   examine_waiting();
+  examine_rest();
   log_.close_all();
   tool_ = tool;
   const MountedTool mounted = mounted_tool(scene_, machine_, tool);
   bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted, origin_);
+  if (last_) rest_ = rest_after(*last_, machine_.motion.kinematics, mounted.length, time);
+  rest_line_ = line;
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;
   if ((has_length && has_shape) || !known_gaps_.insert(tool).second) return;
@@ -91,13 +107,23 @@ void Verifier::examine_waiting() {
     }
   }
   examined_ += stretches_.size();
+  if (!stretches_.empty()) last_ = stretches_.back();
   stretches_.clear();
   waiting_.clear();
   frames_ = {frames_.back()};
 }
 
+/// A motion after a tool change shows what the tool touches where it is mounted. Without one, this does.
+void Verifier::examine_rest() {
+  if (!rest_) return;
+  stretches_.push_back(*std::exchange(rest_, std::nullopt));
+  waiting_.push_back({.line = rest_line_, .frame = frames_.size() - 1});
+  examine_waiting();
+}
+
 void Verifier::finish() {
   examine_waiting();
+  examine_rest();
   log_.close_all();
   contacts_ = log_.contacts();
   certificate_.contacts = log_.contact_count();

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -40,8 +41,9 @@ class Verifier {
     std::size_t frame = 0;  ///< Index of the frame in force.
   };
 
-  void mount(const execution::ToolCode& tool, std::size_t line);
+  void mount(const execution::ToolCode& tool, std::size_t line, double time);
   void examine_waiting();
+  void examine_rest();
 
   const Scene& scene_;
   const simulation::TimedMachine& machine_;
@@ -53,7 +55,10 @@ class Verifier {
   std::vector<geometry::Frame> frames_ = {geometry::Frame()};  ///< Those of the stretches that wait.
   std::vector<motion::Stretch> stretches_;
   std::vector<WaitingStretch> waiting_;
-  std::size_t examined_ = 0;  ///< Stretches that have been examined.
+  std::size_t examined_ = 0;             ///< Stretches that have been examined.
+  std::optional<motion::Stretch> last_;  ///< The last one of them.
+  std::optional<motion::Stretch> rest_;  ///< A tool change after which nothing has moved.
+  std::size_t rest_line_ = 0;            ///< Its line.
   ContactLog log_;
   std::vector<Contact> contacts_;
   Certificate certificate_;

@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "interpreter/verification/verification_report.h"
+#include "tests/verification/scenes.h"
+
+namespace isocnc::verification {
+namespace {
+
+using dialect::Language;
+using geometry::Vec3;
+using kinematics::MachineKind;
+
+/// Code, line from 1, who and whom.
+std::vector<std::string> summaries(const VerifiedRun& run) {
+  std::vector<std::string> all;
+  for (const Contact& contact : run.contacts)
+    all.push_back(fmt::format("{} {} {} | {}", dialect::definition(contact.id).code, contact.line + 1,
+                              contact.who.in(Language::English), contact.whom.in(Language::English)));
+  return all;
+}
+
+void add_machine_body(Shop& shop, std::string name, Link on, const Vec3& minimum, const Vec3& maximum) {
+  shop.scene.machine.push_back(
+      {.name = std::move(name), .role = BodyRole::Machine, .on = on, .shape = solids::Cuboid{minimum, maximum}});
+}
+
+TEST(ContactReports, BodiesThatAlwaysTouchHideNoOtherContact) {
+  Shop shop(MachineKind::Head);
+  shop.scene.clearance = 0;
+  add_machine_body(shop, "bed", Link::Machine, {-1000, -600, -300}, {3000, 2000, -200});
+  add_machine_body(shop, "gantry", Link::X, {-100, -500, -200}, {100, -400, 800});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X0 Y0 Z100 B0 C0\nX80 Y80\nG01 Z-220 F1000\nG00 Z100\nM02\n");
+  const std::vector<std::string> found = summaries(run);
+  EXPECT_NE(std::find(found.begin(), found.end(), "E153 4 the cutter of T101001 | bed"), found.end())
+      << fmt::format("{}", fmt::join(found, "\n"));
+}
+
+TEST(ContactReports, TheBodyThatGoesDeepestIsNamed) {
+  Shop shop;
+  shop.scene.nose.reset();
+  shop.scene.clearance = 0;
+  // The cutter passes 0.01 mm beside the plate, and the holder, 15 mm wider, does not.
+  shop.box("angle plate", {20, -50, -50}, {60, 50, 90});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X-100 Y0 Z98\nX9.99\nZ0\nZ98\nX-100\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  EXPECT_EQ(run.contacts[0].who.in(Language::English), "the holder of T101001");
+  EXPECT_NEAR(run.contacts[0].distance, -14.99, 0.02);
+}
+
+TEST(ContactReports, TheToolMayHitWhatCarriesIt) {
+  for (const MachineKind kind : {MachineKind::ThreeAxis, MachineKind::Head, MachineKind::Table}) {
+    Shop shop(kind);
+    add_machine_body(shop, "gantry", Link::X, {-20, 80, 0}, {20, 90, 150});
+    const VerifiedRun run = shop.run("M06 T101001\nG00 X0 Y0 Z100\nX500\nY85\nM02\n");
+    const std::vector<std::string> found = summaries(run);
+    ASSERT_EQ(found, std::vector<std::string>{"E153 4 the cutter of T101001 | gantry"});
+    // Where the gantry is now.
+    EXPECT_NEAR(run.contacts[0].point.x(), 500, 20.01);
+  }
+}
+
+TEST(ContactReports, RepeatedContactsShowTheDeepest) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("clamp", {-10, -10, -50}, {10, 10, 20});
+  const VerifiedRun run =
+      shop.run("M06 T101001\nG00 X-50 Y0 Z50\nG01 Z19 F1000\nX50\nG00 Z50\nX-50\nG01 Z-20 F1000\nX50\nG00 Z50\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 2u);
+  EXPECT_NEAR(run.contacts[0].distance, -1, 0.01);
+  EXPECT_NEAR(run.contacts[1].distance, -20, 0.01);
+  EXPECT_EQ(run.contacts[0].mistake, run.contacts[1].mistake);
+  ASSERT_EQ(run.outcome.findings.size(), 2u);
+  EXPECT_NEAR(run.outcome.findings[0].finding.values[0], 20, 0.011);
+  EXPECT_NEAR(run.outcome.findings[1].finding.values[0], 20, 0.011);
+}
+
+TEST(ContactReports, FixturesOfOneNameAreTwo) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("clamp", {40, -10, 0}, {60, 10, 20}).described = {.file = "isocnc.json", .line = 3, .column = 1};
+  shop.box("clamp", {140, -10, 0}, {160, 10, 20}).described = {.file = "isocnc.json", .line = 4, .column = 1};
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X0 Y0 Z10\nX100\nX200\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 2u);
+  EXPECT_NE(run.contacts[0].mistake, run.contacts[1].mistake);
+}
+
+/// Cuts as deep as the tolerance are accepted, and those that are deeper by 0.02 are not.
+TEST(ContactReports, DepthsUpToTheToleranceAreAccepted) {
+  for (const double tolerance : {0.0, 0.02, 0.05, 0.2, 1.0}) {
+    Shop shop;
+    shop.scene.target_tolerance = tolerance;
+    shop.box("", {-50, -50, -50}, {50, 50, 0}, BodyRole::Target);
+    const auto run_at = [&](double depth) {
+      return shop.run(fmt::format("M06 T101001\nG00 X-100 Y0 Z50\nG01 Z{:.4f} F2000\nX100\nM02\n", -depth));
+    };
+    EXPECT_TRUE(run_at(tolerance).contacts.empty()) << tolerance;
+    const VerifiedRun deeper = run_at(tolerance + 0.05);
+    ASSERT_EQ(deeper.contacts.size(), 1u) << tolerance;
+    EXPECT_NEAR(deeper.contacts[0].distance, -0.05, 0.005) << tolerance;
+    EXPECT_EQ(run_at(tolerance + 0.021).contacts.size(), 1u) << tolerance;
+  }
+}
+
+/// Where the program counts: on a table that turns, its coordinates turn with the workpiece.
+TEST(ContactReports, ThePlaceIsThatOfTheProgram) {
+  Shop shop(MachineKind::Table);
+  shop.scene.clearance = 0;
+  shop.scene.nose.reset();
+  add_machine_body(shop, "post", Link::Machine, {195, -5, 0}, {205, 5, 50});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X0 Y0 Z100 B0 C90\nG01 X0 Y200 Z20 F5000\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 1u) << run.contacts.size();
+  // The tip goes to Y200 on the table, and in the machine it comes there near the post or opposite to it.
+  EXPECT_NEAR(run.contacts[0].point.x(), 0, 15.1);
+  EXPECT_NEAR(run.contacts[0].point.y(), 200, 15.1);
+}
+
+TEST(ContactReports, AGapIsNoDepth) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("clamp", {-10, -10, -50}, {10, 10, 20});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X-50 Y20.015 Z50\nG01 Z10 F1000\nX50\nM02\n");
+  for (const simulation::RunFinding& each : run.outcome.findings) EXPECT_NEAR(each.finding.values[0], 0.01, 1e-9);
+}
+
+TEST(ContactReports, AToolChangeShowsWhatTheToolTouchesWhereNothingMovesAfterIt) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("clamp", {-10, -10, -50}, {10, 10, 20});
+  static constexpr execution::ToolCode kLonger{1, 1, 2};
+  ToolBodies longer = shop.scene.tools.at(Shop::kTool);
+  longer.length = 160;
+  shop.scene.tools[kLonger] = longer;
+  shop.machine.tool_lengths[kLonger] = 160;
+  const std::string start = "M06 T101001\nG00 X0 Y0 Z30\nM06 T101002\n";
+  EXPECT_EQ(summaries(shop.run(start + "M02\n")), std::vector<std::string>{"E152 3 the cutter of T101002 | clamp"});
+  EXPECT_EQ(summaries(shop.run(start + "G00 Z100\nM02\n")),
+            std::vector<std::string>{"E152 4 the cutter of T101002 | clamp"});
+  EXPECT_TRUE(summaries(shop.run("M06 T101001\nG00 X0 Y0 Z100\nM06 T101002\nM02\n")).empty());
+}
+
+TEST(ContactReports, TheCertificateSaysWhereNoSetupIsForTheProgram) {
+  Shop shop;
+  shop.scene.name = "isocnc.json";
+  const VerifiedRun with = shop.run("M06 T101001\nG00 X0\nM02\n");
+  EXPECT_NE(in_words(*with.certificate, Language::English).find("in the setup of isocnc.json"), std::string::npos);
+  shop.scene.has_setup = false;
+  const std::string words = in_words(*shop.run("M06 T101001\nG00 X0\nM02\n").certificate, Language::English);
+  EXPECT_NE(words.find("between the bodies of the machine in isocnc.json; not verified: no setup is for this program"),
+            std::string::npos)
+      << words;
+}
+
+/// A board without an area has no ends that could hit the machine.
+TEST(ContactReports, AnEndlessBoardOnATableIsNotComparedWithTheMachine) {
+  Shop shop(MachineKind::Table);
+  shop.scene.clearance = 0;
+  shop.box("", {-1e5, -1e5, -60}, {1e5, 1e5, -50}, BodyRole::Spoilboard).is_endless = true;
+  add_machine_body(shop, "column", Link::Machine, {-50, 800, -500}, {50, 900, 2000});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X0 Y0 Z100\nG01 X50 B20 C90 F2000\nM02\n");
+  EXPECT_TRUE(run.contacts.empty());
+  EXPECT_TRUE(run.certificate->gaps.empty());
+}
+
+}  // namespace
+}  // namespace isocnc::verification
