@@ -42,6 +42,14 @@ test('stops at breakpoints with conditions, and shows how it has come there', as
   assert.equal(position.get('Z'), '-8');
   assert.equal((await client.variables('Feed and spindle')).get('S'), '18000');
   assert.match((await client.variables('Modal groups')).get('motion'), /^G01 .*line/);
+  // Where the motion was set is a link.
+  const { scopes } = (await client.request('scopesRequest', { frameId: 1 })).body;
+  const { variablesReference } = scopes.find(({ name }) => name === 'Modal groups');
+  const { variables } = (await client.request('variablesRequest', { variablesReference })).body;
+  const { valueLocationReference } = variables.find(({ name }) => name === 'motion');
+  const set = (await client.custom('locations', { locationReference: valueLocationReference })).body;
+  const shown = fs.readFileSync(set.source.path, 'utf8').split('\n')[set.line - 1];
+  assert.match(shown.slice(set.column - 1, set.endColumn - 1), /^G0?1$/);
   await client.run('reverseContinueRequest');
   assert.equal(await client.line(), 3);
   assert.equal(await client.stop(), 0);
