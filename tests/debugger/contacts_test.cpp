@@ -515,7 +515,7 @@ class ContactsOfKinematics : public testing::TestWithParam<const char*> {};
 
 TEST_P(ContactsOfKinematics, AreTheSameForwardAndBackward) {
   std::size_t count = 0;
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+  for (const std::uint64_t seed : support::seeds(12)) {
     support::Random random(seed);
     const std::string program = random_program(random, std::string(GetParam()) != "three-axis");
     DebugClient client;
@@ -527,7 +527,9 @@ TEST_P(ContactsOfKinematics, AreTheSameForwardAndBackward) {
     count += moments.on.size();
     if (HasFailure()) return;
   }
-  EXPECT_GE(count, 30u);
+  if (support::kTriesAll) {
+    EXPECT_GE(count, 30u);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ContactsOfKinematics, testing::Values("three-axis", "head", "table"));

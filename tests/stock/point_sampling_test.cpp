@@ -198,7 +198,7 @@ void expect_as_sampled(const Sweep& sweep, Random& random, double tolerance, int
 }
 
 TEST(PointSampling, VerticalAxisAlongLines) {
-  for (const std::uint64_t seed : support::seeds(300)) {
+  for (const std::uint64_t seed : support::seeds(100)) {
     Random random(seed);
     const RevolvedBody tool = any_body(random);
     const Vec3 from = any_point(random);
@@ -213,7 +213,7 @@ TEST(PointSampling, VerticalAxisAlongLines) {
 }
 
 TEST(PointSampling, VerticalAxisAlongArcs) {
-  for (const std::uint64_t seed : support::seeds(120)) {
+  for (const std::uint64_t seed : support::seeds(40)) {
     Random random(seed);
     const RevolvedBody tool = any_body(random);
     const Vec3 from = any_point(random);
@@ -231,7 +231,7 @@ TEST(PointSampling, VerticalAxisAlongArcs) {
 }
 
 TEST(PointSampling, TiltedAxisAlongLines) {
-  for (const std::uint64_t seed : support::seeds(300)) {
+  for (const std::uint64_t seed : support::seeds(100)) {
     Random random(seed);
     const RevolvedBody tool = any_body(random);
     const Vec3 from = any_point(random);
@@ -247,7 +247,7 @@ TEST(PointSampling, TiltedAxisAlongLines) {
 }
 
 TEST(PointSampling, TurningAxis) {
-  for (const std::uint64_t seed : support::seeds(60)) {
+  for (const std::uint64_t seed : support::seeds(20)) {
     Random random(seed);
     const RevolvedBody tool = any_body(random);
     const Vec3 from = any_point(random);
