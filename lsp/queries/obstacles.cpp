@@ -4,7 +4,7 @@
 #include <limits>
 #include <memory>
 
-#include "interpreter/running/runner.h"
+#include "interpreter/verification/verifier.h"
 #include "lsp/queries/machine_motion.h"
 #include "lsp/queries/timed_program.h"
 
@@ -87,11 +87,7 @@ std::optional<NearestObstacle> nearest_obstacle(const Snapshot& snapshot, std::s
     const auto move = machine_motion(snapshot, line, run);
     const auto tool = mounted_tool(snapshot, line + 1, run.after);
     if (!move || !tool || (*tool != execution::ToolCode() && !(move->tool_length > 0))) return std::nullopt;
-    const auto known = around.scene->tools.find(*tool);
-    const verification::MountedTool mounted{
-        .bodies = known == around.scene->tools.end() ? nullptr : &known->second,
-        .name = *tool == execution::ToolCode() ? std::string() : running::tool_name(*tool),
-        .length = move->tool_length};
+    const verification::MountedTool mounted = verification::mounted_tool(*around.scene, machine, *tool);
     const bool is_without_tool = *tool != execution::ToolCode() && !(mounted.bodies && mounted.bodies->cutter);
     const verification::BodyPairs bodies =
         verification::pairs_of(*around.scene, machine.motion.kinematics, mounted, *around.origin);
