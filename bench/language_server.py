@@ -99,20 +99,28 @@ def replaced_digit(line, choices):
     return (choices.choice(digits), choices.choice("123456789")) if digits else None
 
 
-def edit_times(server, uri, lines, count):
-    """Seconds from one changed digit to the diagnostics, anywhere in the program."""
+def digit_edits(uri, lines, end, count):
+    """`count` versions from 2 on, each with the change of one digit in any line before `end`."""
     choices = random.Random(editor.SEED)
     version = 1
-    times = []
-    while len(times) < count:
-        number = choices.randrange(len(lines))
+    while version <= count:
+        number = choices.randrange(end)
         edit = replaced_digit(lines[number], choices)
         if not edit:
             continue
         column, digit = edit
         version += 1
         place = {"start": {"line": number, "character": column}, "end": {"line": number, "character": column + 1}}
-        change = {"textDocument": {"uri": uri, "version": version}, "contentChanges": [{"range": place, "text": digit}]}
+        yield version, {
+            "textDocument": {"uri": uri, "version": version},
+            "contentChanges": [{"range": place, "text": digit}],
+        }
+
+
+def edit_times(server, uri, lines, count):
+    """Seconds from one changed digit to the diagnostics, anywhere in the program."""
+    times = []
+    for version, change in digit_edits(uri, lines, len(lines), count):
         start = time.perf_counter()
         server.notify("textDocument/didChange", change)
         times.append(server.wait_for_diagnostics(uri, version) - start)
@@ -222,19 +230,10 @@ def verified_edit_times(server, uri, lines, count):
         of_machine = [each for each in message["params"]["diagnostics"] if each["source"] == "isocnc verify"]
         return bool(of_machine) and not any(1 in each.get("tags", []) for each in of_machine)
 
-    choices = random.Random(editor.SEED)
     version = 1
     server.wait(are_verified)
     times = []
-    while len(times) < count:
-        number = choices.randrange(len(lines) - 10)
-        edit = replaced_digit(lines[number], choices)
-        if not edit:
-            continue
-        column, digit = edit
-        version += 1
-        place = {"start": {"line": number, "character": column}, "end": {"line": number, "character": column + 1}}
-        change = {"textDocument": {"uri": uri, "version": version}, "contentChanges": [{"range": place, "text": digit}]}
+    for version, change in digit_edits(uri, lines, len(lines) - 10, count):
         start = time.perf_counter()
         server.notify("textDocument/didChange", change)
         times.append(server.wait(are_verified)[0] - start - PAUSE_S)
