@@ -111,6 +111,36 @@ static verification::Scene example_scene() {
   return scene;
 }
 
+/// A setup with a blank that a clamp holds, and what the material's findings need besides.
+static verification::Scene example_of_material(DiagnosticId id) {
+  using verification::BodyRole;
+  const auto made = [](solids::BodyOrProblem body) { return std::get<solids::RevolvedBody>(std::move(body)); };
+  verification::Scene scene;
+  verification::ToolBodies& cutter = scene.tools[{1, 1, 1}];
+  cutter.length = 100;
+  cutter.cutter = made(solids::flat_body(10, 60));
+  const solids::StackRow holder{.height = 40, .lower_diameter = 50, .upper_diameter = 50};
+  cutter.holder = made(solids::stacked_body({&holder, 1}, 60));
+  verification::ToolBodies& mill = scene.tools[{1, 1, 2}];
+  mill.length = 100;
+  mill.cutter = made(solids::flat_body(60, 100));
+  verification::ToolBodies& small = scene.tools[{1, 1, 3}];
+  small = cutter;
+  small.max_depth = 10;
+  verification::ToolBodies& edge = scene.tools[{1, 1, 4}];
+  edge.length = 100;
+  edge.cutter = made(solids::flat_body(5, 20));
+  const solids::FormPoint shank[] = {{20, 5}, {100, 5}};
+  edge.shank = made(solids::form_body(shank));
+  const auto body = [](BodyRole role, const geometry::Vec3& minimum, const geometry::Vec3& maximum) {
+    return verification::SceneBody{.role = role, .shape = solids::Cuboid{.minimum = minimum, .maximum = maximum}};
+  };
+  scene.setup = {body(BodyRole::Stock, {300, 100, 0}, {400, 200, 40})};
+  if (id == "loose-piece"_diag) scene.setup.push_back(body(BodyRole::Fixture, {280, 95, 0}, {300, 105, 40}));
+  if (id == "material-left"_diag) scene.setup.push_back(body(BodyRole::Target, {300, 100, 0}, {400, 200, 30}));
+  return scene;
+}
+
 std::vector<simulation::RunFinding> example_run(std::string_view program, DiagnosticId id) {
   simulation::TimedMachine machine;
   machine.tool_radii[{1, 1, 1}] = 10;
@@ -120,13 +150,19 @@ std::vector<simulation::RunFinding> example_run(std::string_view program, Diagno
   }
   static constexpr DiagnosticId kInScene[] = {"hits-fixture"_diag, "hits-machine"_diag, "gouges-part"_diag,
                                               "near-miss"_diag, "not-verified"_diag};
-  if (std::find(std::begin(kInScene), std::end(kInScene), id) == std::end(kInScene))
+  static constexpr DiagnosticId kOfMaterial[] = {
+      "rapid-in-material"_diag, "holder-in-material"_diag, "cuts-with-spindle-stopped"_diag,
+      "material-left"_diag,     "cut-too-deep"_diag,       "cuts-nothing"_diag,
+      "loose-piece"_diag};
+  const bool is_of_material = std::find(std::begin(kOfMaterial), std::end(kOfMaterial), id) != std::end(kOfMaterial);
+  if (!is_of_material && std::find(std::begin(kInScene), std::end(kInScene), id) == std::end(kInScene))
     return selection::verified_on_paths(program, {}, machine, nullptr).outcome.findings;
-  machine.tool_lengths = {{{1, 1, 1}, 100}, {{1, 1, 2}, 100}};
+  for (int tool = 1; tool <= 4; ++tool)
+    if (is_of_material || tool <= 2) machine.tool_lengths[{1, 1, tool}] = 100;
   machine.home.tip.z() = 300;
   running::RunOptions options;
   options.setup.home = machine.home;
-  const verification::Scene scene = example_scene();
+  const verification::Scene scene = is_of_material ? example_of_material(id) : example_scene();
   return selection::verified_on_paths(program, options, machine, &scene).outcome.findings;
 }
 

@@ -51,6 +51,8 @@ struct RunCommandOptions {
   std::string samples;
   std::string sample_seconds = "0.01";
   std::string plot;
+  std::string stock_out;
+  std::optional<std::string> resolution;
   bool json = false;
   bool verify = false;
   std::string language;
@@ -128,6 +130,16 @@ constexpr Text kNoPage{
     "this isorun draws no {}: it was built without npm, which --plot FILE.html takes; --plot FILE.svg works",
     "questo isorun non disegna {}: è stato compilato senza npm, che serve per --plot FILE.html; --plot FILE.svg "
     "funziona"};
+constexpr Text kWrongStock{"--stock-out writes a file whose name ends in .stl, unlike {}",
+                           "--stock-out scrive un file il cui nome finisce in .stl, non come {}"};
+constexpr Text kWrongResolution{"--resolution takes a plain number of mm above 0, such as 0.5, not {}",
+                                "--resolution vuole un numero semplice in mm maggiore di 0, come 0.5, non {}"};
+constexpr Text kTooFine{
+    "a resolution of {} mm takes more memory than there is for the stock; {:.2g} mm would fit",
+    "una risoluzione di {} mm occupa più memoria di quella prevista per il grezzo; con {:.2g} mm ci "
+    "sta"};
+constexpr Text kNoStock{"{} takes a setup with a stock (docs/verification.md), and {} has none",
+                        "{} vuole un attrezzaggio con un grezzo (docs/it/verifica.md), e {} non ne ha"};
 constexpr Text kOneStandardOutput{"--trace - and --samples - both take standard output",
                                   "--trace - e --samples - vogliono tutti e due lo standard output"};
 
@@ -160,6 +172,7 @@ std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
                      .samples = options.samples,
                      .plot = options.plot,
                      .json = options.json,
+                     .stock_out = options.stock_out,
                      .program_name = options.shown_file(),
                      .language = options.reader_language()};
   const auto seconds = read_decimal(options.sample_seconds);
@@ -168,6 +181,14 @@ std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   const auto format = plot::plot_format(options.plot);
   if (!options.plot.empty() && !format) return refuse(kWrongPlot, options.plot, options);
   if (format == plot::PlotFormat::Html && plot::kPageTemplate.empty()) return refuse(kNoPage, options.plot, options);
+  if (!options.stock_out.empty() && !options.stock_out.ends_with(".stl"))
+    return refuse(kWrongStock, options.stock_out, options);
+  if (options.resolution) {
+    outputs.material.resolution = read_decimal(*options.resolution);
+    if (!(outputs.material.resolution.value_or(0) > 0)) return refuse(kWrongResolution, *options.resolution, options);
+  }
+  // Cutting takes longer than the rest, and nothing else shows it.
+  outputs.material.is_cut = options.verify || !options.stock_out.empty() || format == plot::PlotFormat::Html;
   if (options.trace == "-" && options.samples == "-") return refuse(kOneStandardOutput, "", options);
   return outputs;
 }
@@ -267,6 +288,7 @@ std::vector<NamedFile> files_written(const RunCommandOptions& options) {
   add(options.trace, "--trace");
   add(options.samples, "--samples");
   add(options.plot, "--plot");
+  add(options.stock_out, "--stock-out");
   add(options.output, "--output");
   const bool leaves_standard_output_alone = options.restart_at && files.size() == 1;
   if (!leaves_standard_output_alone) files.push_back({"/dev/stdout", kStandardOutput.in(options.reader_language())});
@@ -420,6 +442,22 @@ plot::PlotSubject plot_subject(std::string_view program, const configuration::Ma
           .language = options.reader_language()};
 }
 
+/// Whether there is a stock for the options that take one, which fits the memory; false after an error message.
+bool can_cut(const RunCommandOptions& options, const RunOutputs& outputs) {
+  if (options.stock_out.empty() && !options.resolution) return true;
+  std::optional<removal::Workpiece> workpiece;
+  if (outputs.subject.scene)
+    workpiece = verification::workpiece_of(*outputs.subject.scene, {}, {.resolution = outputs.material.resolution});
+  if (!workpiece) {
+    const std::string_view option = options.resolution ? "--resolution" : "--stock-out";
+    complain(dialect::format(kNoStock, options.reader_language(), option, options.shown_file()));
+    return false;
+  }
+  const std::optional<double> fitting = verification::coarser_spacing(*workpiece);
+  if (fitting) complain(dialect::format(kTooFine, options.reader_language(), workpiece->spacing, *fitting));
+  return !fitting;
+}
+
 ExitStatus run_file(RunCommandOptions options) {
   const std::optional<RunSettings> found = find_settings(options);
   if (!found) return ExitStatus::Failure;
@@ -447,6 +485,7 @@ ExitStatus run_file(RunCommandOptions options) {
   if (restart_options) return restart(source, options, *restart_options);
   outputs->subject = plot_subject(source.text(), machine, options);
   outputs->subject.scene = found->scene;
+  if (!can_cut(options, *outputs)) return ExitStatus::Failure;
   if (found->scene) outputs->subject.origin = verification::first_workpiece_origin(source.text(), *run_options);
   return run_program(source.text(), options, *run_options, *outputs, *found);
 }
@@ -511,6 +550,12 @@ ExitStatus run_main(int argc, char** argv) {
                                                            {"Print what the machine shows as isolint prints it",
                                                             "Stampa ciò che la macchina mostra come isolint"})
                                                  .without_exclusions();
+  const command_line::ProgramOption stock_out =
+      program.add_option("--stock-out", options.stock_out, command_line::kFileValue,
+                         {"What is left of the blank, as FILE.stl", "Ciò che resta del grezzo, come FILE.stl"});
+  program.add_option("--resolution", options.resolution, {"MM", "MM"},
+                     {"How fine the blank is cut; else as the setup says",
+                      "Quanto è fine il taglio del grezzo; altrimenti\ncome dice l'attrezzaggio"});
   program.add_option("--vgpl", options.vgpl, {"VALUE", "VALORE"},
                      {"Value of VGPL (else 0)", "Valore di VGPL (altrimenti 0)"});
   program
@@ -537,6 +582,7 @@ ExitStatus run_main(int argc, char** argv) {
                                                      .excludes(trace)
                                                      .excludes(samples)
                                                      .excludes(plot)
+                                                     .excludes(stock_out)
                                                      .excludes(verify)
                                                      .excludes(json);
   const command_line::ProgramOption restarting[] = {

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analyzer/check/side_by_side.h"
+#include "interpreter/solids/stl.h"
+#include "interpreter/stock/surface.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/system_texts.h"
 #include "interpreter/verification/verification_report.h"
@@ -39,8 +41,9 @@ RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& 
                          findings_.take(warning);
                        }} {
   open(outputs.plot, plot_file_);
+  open(outputs.stock_out, stock_file_);
   const plot::PlotSubject& subject = outputs.subject;
-  if (subject.scene) verifier_.emplace(*subject.scene, machine, subject.origin, work_together);
+  if (subject.scene) verifier_.emplace(*subject.scene, machine, subject.origin, work_together, outputs.material);
   if (const auto format = plot::plot_format(outputs.plot)) plot_.emplace(*format, outputs.subject, machine);
   last_sample_.tip = timing_.tip();
   last_sample_.joints = timing_.joints();
@@ -126,13 +129,14 @@ verification::VerifiedRun RunReport::end_run(std::string_view text, const runnin
 }
 
 std::string RunReport::summary(const verification::VerifiedRun& verified, const std::string& shown_findings) const {
-  if (!outputs_.json) return shown_findings + summary_.text(outputs_.language);
+  if (!outputs_.json) {
+    const std::string text = shown_findings + summary_.text(outputs_.language);
+    return verified.material ? text + in_words(*verified.material, outputs_.language) : text;
+  }
   std::string json = summary_.json(outputs_.program_name, outputs_.language);
   if (!verified.certificate && shown_findings.empty()) return json;
   json.resize(json.rfind('}'));
-  if (verified.certificate)
-    json += fmt::format(",\"verification\":{}",
-                        to_json(verified.contacts, *verified.certificate, outputs_.language).dump());
+  if (verified.certificate) json += fmt::format(",\"verification\":{}", to_json(verified, outputs_.language).dump());
   if (!shown_findings.empty())
     json += fmt::format(",\"findings\":{}", nlohmann::ordered_json::parse(shown_findings).dump());
   return json + "}\n";
@@ -150,6 +154,11 @@ void RunReport::finish(const running::RunResult& result, const verification::Ver
   if (has_summary()) standard_output_.write(summary(verified, shown_findings));
   if (trace_file_) close(*trace_file_, outputs_.trace);
   if (samples_file_) close(*samples_file_, outputs_.samples);
+  if (stock_file_) {
+    stock_file_->write(solids::write_stl(verified.material ? stock::surface_of(verified.material->stock)
+                                                           : std::vector<solids::Triangle>()));
+    close(*stock_file_, outputs_.stock_out);
+  }
   if (plot_) {
     plot_->write(*plot_file_, {result, verified});
     close(*plot_file_, outputs_.plot);

@@ -24,6 +24,8 @@ struct RunOutputs {
   std::string plot;
   plot::PlotSubject subject;  ///< Subject of the plot, and what surrounds the program.
   bool json = false;          ///< Whether the summary is JSON.
+  std::string stock_out;      ///< What remains of the blank, as a mesh.
+  verification::MaterialOptions material;
   std::string program_name;
   dialect::Language language = dialect::Language::English;
 };
@@ -69,6 +71,7 @@ class RunReport {
   system::OutputFile* trace_;
   system::OutputFile* samples_;
   simulation::Summary summary_;
+  std::optional<system::OutputFile> stock_file_;
   std::optional<system::OutputFile> plot_file_;
   std::optional<plot::Plot> plot_;
   std::uint64_t next_sample_ = 0;  ///< In units of sample_seconds.

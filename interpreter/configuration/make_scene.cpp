@@ -125,6 +125,7 @@ Scene make_scene(const MachineConfiguration& machine, const std::optional<Locate
   scene.name = located->file.generic_string();
   scene.is_in_workpiece_frame = setup.frame == "workpiece";
   scene.clearance = setup.clearance;
+  scene.resolution = setup.resolution;
   const BodyMaker maker(located->file, located->folder, meshes);
   for (const DescribedBody& fixture : setup.fixtures) maker.add(fixture, BodyRole::Fixture, scene.setup);
   if (setup.spoilboard) maker.add(*setup.spoilboard, scene.setup);

@@ -195,6 +195,7 @@ std::variant<ToolBodies, Objection> tool_bodies(const MachineConfiguration& mach
   ToolBodies bodies;
   if (!tool.length) return bodies;
   bodies.length = *tool.length;
+  bodies.max_depth = tool.max_depth;
   double reach = bodies.length;
   if (!tool.body.empty()) {
     const NamedRows* const holder = find_holder(machine, tool.body);

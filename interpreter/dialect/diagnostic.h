@@ -31,7 +31,7 @@ enum class FoldKind : std::uint8_t {
 inline constexpr int kFoldCount = 4;
 
 /// Maximum number of values in one message.
-inline constexpr int kMaxArguments = 5;
+inline constexpr int kMaxArguments = 6;
 
 /// Maximum number of names from outside the program in one message.
 inline constexpr int kMaxGivenNames = 2;

@@ -1377,6 +1377,52 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                            "rapido (G00) non è ammessa."},
      .wrong = "M06 T101001\n[!G09!] G01 X10 F1000\nM02\n",
      .right = "M06 T101001\nG01 X10 F1000 G09\nM02\n"},
+    {.code = "E150",
+     .name = "rapid-in-material",
+     .severity = Severity::Error,
+     .is_reported_by_runs = true,
+     .section = "I.3.4.1",
+     .arguments = {"depth", "x", "y", "z", "time", "enough"},
+     .title = {.en = "Rapid through material", .it = "Rapido nel materiale"},
+     .message = {.en = "{who} goes through material in rapid: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the "
+                       "start; Z{enough} would have been enough",
+                 .it = "{who} attraversa il materiale in rapido: {depth} mm di profondità in X{x} Y{y} Z{z}, {time} s "
+                       "dopo l'avvio; bastava Z{enough}"},
+     .explanation =
+         {.en = "In rapid the machine goes as fast as it can, and the cutter meets what is left of the blank. Rapids "
+                "are not straight where the axes need different times: what counts is the path that the machine really "
+                "takes. Go higher, or go in feed. The Z in the message is the lowest, up to 0.1 mm, at which this "
+                "motion meets nothing. If the way is free at the machine, the stock in isocnc.json is larger than the "
+                "blank or stands elsewhere, or something was cut before that this program does not cut.",
+          .it = "In rapido la macchina va alla massima velocità, e la fresa incontra ciò che resta del grezzo. I "
+                "rapidi non sono rettilinei quando gli assi impiegano tempi diversi: conta il percorso che la macchina "
+                "compie davvero. Passare più in alto, o in lavoro. La Z del messaggio è la più bassa, a 0,1 mm, con "
+                "cui questo movimento non incontra nulla. Se alla macchina la strada è libera, il grezzo (stock) in "
+                "isocnc.json è più grande di quello vero o sta altrove, oppure qualcosa è già stato tagliato fuori da "
+                "questo programma."},
+     .wrong = "M06 T101001\nS12000 M03\nG00 X250 Y150 Z50\nZ5\n[!X500!]\nZ50\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG00 X250 Y150 Z50\nZ41\nX500\nZ50\nM02\n"},
+    {.code = "E151",
+     .name = "holder-in-material",
+     .severity = Severity::Error,
+     .is_reported_by_runs = true,
+     .section = "I.4.3",
+     .arguments = {"depth", "x", "y", "z", "time", "enough"},
+     .title = {.en = "Holder or shank in material", .it = "Portautensile o gambo nel materiale"},
+     .message = {.en = "{who} is in the material: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start; "
+                       "Z{enough} would have been enough",
+                 .it = "{who} è nel materiale: {depth} mm di profondità in X{x} Y{y} Z{z}, {time} s dopo l'avvio; "
+                       "bastava Z{enough}"},
+     .explanation =
+         {.en = "What does not cut meets what is left of the blank: the shank, the holder or the spindle nose. The "
+                "message names the deepest place, and the Z at which this motion would have met nothing. Go less deep, "
+                "take a longer tool, or make room for the holder before.",
+          .it =
+              "Ciò che non taglia incontra ciò che resta del grezzo: il gambo, il portautensile o il naso del "
+              "mandrino. Il messaggio dà il punto più profondo e la Z con cui questo movimento non avrebbe incontrato "
+              "nulla. Andare meno a fondo, montare un utensile più lungo, o fare prima spazio al portautensile."},
+     .wrong = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\n[!G01 Z-25!] F1000\nG00 Z50\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z-15 F1000\nG00 Z50\nM02\n"},
     {.code = "E152",
      .name = "hits-fixture",
      .severity = Severity::Error,
@@ -1445,6 +1491,26 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "suo sistema di riferimento."},
      .wrong = "M06 T101001\nG00 X60 Y60 Z5\nG01 Z-5 F1000\n[!X80!]\nZ5\nM02\n",
      .right = "M06 T101001\nG00 X60 Y60 Z5\nG01 Z-5 F1000\nX50\nZ5\nM02\n"},
+    {.code = "E158",
+     .name = "cuts-with-spindle-stopped",
+     .severity = Severity::Error,
+     .is_reported_by_runs = true,
+     .section = "I.4.2",
+     .arguments = {"depth", "x", "y", "z", "time"},
+     .title = {.en = "Cut with the spindle stopped", .it = "Taglio a mandrino fermo"},
+     .message = {.en = "{who} cuts while the spindle stands: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the "
+                       "start",
+                 .it = "{who} taglia a mandrino fermo: {depth} mm di profondità in X{x} Y{y} Z{z}, {time} s dopo "
+                       "l'avvio"},
+     .explanation =
+         {.en = "The motion removes material, and the spindle does not turn: no M03 or M04 came before, or an M05 or a "
+                "tool change has stopped it since. Start it before the first cut. W102, which asks for the spindle "
+                "before any feed, is not reported beside this.",
+          .it = "Il movimento asporta materiale e il mandrino non gira: prima non c'è una M03 o M04, oppure una M05 o "
+                "un cambio utensile lo ha fermato. Avviarlo prima del primo taglio. W102, che chiede il mandrino prima "
+                "di ogni lavoro, non viene segnalata insieme a questa."},
+     .wrong = "M06 T101001\nG00 X350 Y150 Z50\n[!G01 Z35!] F1000\nG00 Z50\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z35 F1000\nG00 Z50\nM02\n"},
     {.code = "E160",
      .name = "joint-travel",
      .severity = Severity::Error,
@@ -2251,12 +2317,105 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "accontenta."},
      .wrong = "M06 T101001\nG00 X100 Y20 Z50\nG01 Z31 F1000\n[!X300!]\nZ50\nM02\n",
      .right = "M06 T101001\nG00 X100 Y20 Z50\nG01 Z33 F1000\nX300\nZ50\nM02\n"},
+    {.code = "W156",
+     .name = "material-left",
+     .severity = Severity::Warning,
+     .is_reported_by_runs = true,
+     .section = "I.3.4",
+     .arguments = {"height", "x", "y", "z", "time", "volume"},
+     .title = {.en = "Material left on the finished part", .it = "Materiale rimasto sul pezzo finito"},
+     .message = {.en = "material is left on the finished part: {height} mm high at X{x} Y{y} Z{z}, {volume} cm3 in "
+                       "one piece",
+                 .it = "sul pezzo finito resta materiale: alto {height} mm in X{x} Y{y} Z{z}, {volume} cm3 in un solo "
+                       "punto"},
+     .explanation =
+         {.en = "At the end of the program more material stands on the finished part of the setup (target) than its "
+                "tolerance allows. The finding stands at the line that has cut last near it, or at the end of the "
+                "program. A pass may be missing, or the tool too large for a corner. What has come free of the part "
+                "does not count. A false alarm where another program finishes the part, or where tabs are left on "
+                "purpose.",
+          .it = "Alla fine del programma sul pezzo finito dell'attrezzaggio (target) resta più materiale di quanto la "
+                "tolleranza ammetta. La segnalazione è sulla linea che ha tagliato per ultima lì vicino, o alla fine "
+                "del programma. Può mancare una passata, o l'utensile essere troppo grande per uno spigolo. Ciò che si "
+                "è staccato dal pezzo non conta. Falso allarme se un altro programma finisce il pezzo, o se i "
+                "testimoni sono lasciati apposta."},
+     .wrong = "M06 T101002\nS12000 M03\nG00 X200 Y120 Z50\nG01 Z30 F1000\n[!X500!]\nG00 Z50\nM02\n",
+     .right = "M06 T101002\nS12000 M03\nG00 X200 Y150 Z50\nG01 Z30 F1000\nX500\nG00 Z50\nM02\n"},
+    {.code = "W157",
+     .name = "cut-too-deep",
+     .severity = Severity::Warning,
+     .is_reported_by_runs = true,
+     .section = "I.4.3",
+     .arguments = {"depth", "x", "y", "z", "time", "limit"},
+     .title = {.en = "Cut deeper than the tool allows", .it = "Passata troppo profonda per l'utensile"},
+     .message = {.en = "{who} cuts {depth} mm deep at once at X{x} Y{y} Z{z}, {time} s after the start; it may go "
+                       "{limit} mm deep",
+                 .it = "{who} taglia {depth} mm in una passata in X{x} Y{y} Z{z}, {time} s dopo l'avvio; il massimo è "
+                       "{limit} mm"},
+     .causes = {{.cause = "edge-too-short",
+                 .message = {.en = "{who} is {depth} mm deep in the material at X{x} Y{y} Z{z}, {time} s after the "
+                                   "start; its edge is {limit} mm long, and the shank rubs",
+                             .it = "{who} è a {depth} mm di profondità nel materiale in X{x} Y{y} Z{z}, {time} s dopo "
+                                   "l'avvio; il tagliente è lungo {limit} mm, e il gambo striscia"},
+                 .wrong = "M06 T101004\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z30 F1000\nX400\n[!Z12!]\nG00 Z50\nM02\n"}},
+     .explanation =
+         {.en = "machine.tools of isocnc.json says how much the tool may cut at once (maxDepth) and how long its edge "
+                "is (cutLength). Where more is cut at once the tool may break; where a wall stands beside the shank, "
+                "above the edge, the shank rubs and burns. Take more passes, or a tool with a longer edge or a thinner "
+                "shank.",
+          .it = "machine.tools di isocnc.json dice quanto l'utensile può asportare in una passata (maxDepth) e quanto "
+                "è lungo il suo tagliente (cutLength). Asportando di più l'utensile si può rompere; dove una parete "
+                "sta accanto al gambo, sopra il tagliente, il gambo striscia e brucia. Fare più passate, o usare un "
+                "utensile col tagliente più lungo o il gambo più sottile."},
+     .wrong = "M06 T101003\nS12000 M03\nG00 X350 Y150 Z50\n[!G01 Z20!] F1000\nG00 Z50\nM02\n",
+     .right = "M06 T101003\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z32 F1000\nG00 Z50\nM02\n"},
+    {.code = "W159",
+     .name = "cuts-nothing",
+     .severity = Severity::Info,
+     .is_off = true,
+     .is_reported_by_runs = true,
+     .section = "I.3.4.2",
+     .arguments = {"length"},
+     .title = {.en = "Feed that cuts nothing", .it = "Lavoro che non taglia nulla"},
+     .message = {.en = "the tool goes {length} mm in feed from here without meeting material",
+                 .it = "da qui l'utensile percorre {length} mm in lavoro senza incontrare materiale"},
+     .explanation =
+         {.en = "Time is lost where the tool goes in feed through air: a pass that is there twice, a blank that is "
+                "smaller than the program thinks, an approach from too far. Ways of up to 50 mm are left alone. Off by "
+                "default: finishing passes at a contour that is clean already meet nothing, and are meant.",
+          .it = "Si perde tempo dove l'utensile va in lavoro nell'aria: una passata ripetuta, un grezzo più piccolo di "
+                "quello pensato, un avvicinamento da troppo lontano. Fino a 50 mm non si segnala. Disattivata di "
+                "norma: le passate di finitura su un contorno già pulito non incontrano nulla, e sono volute."},
+     .wrong = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z60\n[!G01 X500!] F1000\nG00 Z70\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z60\nG00 X500\nZ70\nM02\n"},
+    {.code = "W161",
+     .name = "loose-piece",
+     .severity = Severity::Warning,
+     .is_reported_by_runs = true,
+     .section = "I.3.4",
+     .arguments = {"height", "x", "y", "z", "time", "volume"},
+     .title = {.en = "Piece that comes free", .it = "Pezzo che si stacca"},
+     .message = {.en = "a piece of {volume} cm3 comes free here, and nothing holds it: around X{x} Y{y} Z{z}, {time} s "
+                       "after the start",
+                 .it = "qui si stacca un pezzo di {volume} cm3 che nulla trattiene: intorno a X{x} Y{y} Z{z}, {time} s "
+                       "dopo l'avvio"},
+     .explanation =
+         {.en = "The cut is closed, and what it has separated touches no cup, clamp or stop of the setup, nor lies on "
+                "its spoilboard: the tool may catch it and throw it. Leave tabs, hold the piece, or cut it up. A false "
+                "alarm where the machine holds it with what the setup does not describe.",
+          .it =
+              "Il taglio è chiuso, e ciò che ha separato non tocca nessuna ventosa, morsetto o riscontro "
+              "dell'attrezzaggio, né poggia sul suo piano martire: l'utensile può prenderlo e scagliarlo. Lasciare "
+              "dei testimoni, trattenere il pezzo, o ridurlo in trucioli. Falso allarme se alla macchina lo trattiene "
+              "qualcosa che l'attrezzaggio non descrive."},
+     .wrong = "M06 T101001\nS12000 M03\nG00 X315 Y120 Z50\nG01 Z-1 F1000\nX385\nY180\nX315\n[!Y120!]\nG00 Z50\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG00 X315 Y120 Z50\nG01 Z-1 F1000\nX385\nY180\nX315\nY160\nG00 Z50\nM02\n"},
     {.code = "W162",
      .name = "not-verified",
      .severity = Severity::Info,
      .is_reported_by_runs = true,
      .section = "I.1",
-     .arguments = {"paths"},
+     .arguments = {"paths", "spacing"},
      .title = {.en = "Not verified on the machine", .it = "Non verificato sulla macchina"},
      .message = {.en = "the simulated machine stops at this error, as the control would: what it would do from here "
                        "on is not verified",
@@ -2274,6 +2433,12 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                  .message = {.en = "whether this motion hits anything could not be decided",
                              .it = "non è stato possibile decidere se questo movimento urta qualcosa"},
                  .wrong = "M06 T101001\n[!G00 X2000000!]\nM02\n"},
+                {.cause = "resolution-too-fine",
+                 .message = {.en = "the material is not verified: at the resolution of the setup it takes more memory "
+                                   "than there is for it; {spacing} mm would fit",
+                             .it = "il materiale non è verificato: con la risoluzione dell'attrezzaggio occupa più "
+                                   "memoria di quella prevista; con {spacing} mm ci sta"},
+                 .wrong = ""},
                 {.cause = "other-paths",
                  .message = {.en = "where this jump leads with other values of VGPL is not verified (paths that were "
                                    "run: {paths})",

@@ -34,12 +34,6 @@ dialect::Text name_of(PartKind kind) {
   return {"the spindle nose", "il naso del mandrino"};
 }
 
-GivenName part_name(PartKind kind, const std::string& tool) {
-  const dialect::Text name = name_of(kind);
-  return GivenName::of({dialect::format(name, dialect::Language::English, tool),
-                        dialect::format(name, dialect::Language::Italian, tool)});
-}
-
 GivenName body_name(const SceneBody& body) {
   if (body.role == BodyRole::Spoilboard && body.name.empty())
     return GivenName::of({"the spoilboard", "il piano martire"});
@@ -222,6 +216,12 @@ class PairsMaker {
 };
 
 }  // namespace
+
+GivenName part_name(PartKind kind, const std::string& tool) {
+  const dialect::Text name = name_of(kind);
+  return GivenName::of({dialect::format(name, dialect::Language::English, tool),
+                        dialect::format(name, dialect::Language::Italian, tool)});
+}
 
 BodyPairs pairs_of(const Scene& scene, const kinematics::Kinematics& kinematics, const MountedTool& tool,
                    const Vec3& origin) {

@@ -89,6 +89,9 @@ struct MountedTool {
   double length = 0;                   ///< mm
 };
 
+/// How messages call a part of a tool (`T101001`), or the nose.
+dialect::GivenName part_name(PartKind kind, const std::string& tool);
+
 /// `origin` is that of the setup's frame, in the machine frame. The result refers to the scene.
 BodyPairs pairs_of(const Scene& scene, const kinematics::Kinematics& kinematics, const MountedTool& tool,
                    const geometry::Vec3& origin);

@@ -15,9 +15,11 @@
 
 namespace isocnc::verification {
 
-/// A moving body that hits an obstacle, from the first touch to the last, or passes too near.
+/// A moving body that hits an obstacle, from the first touch to the last, or passes too near; or something that goes
+/// wrong with the material.
 struct Contact {
-  dialect::DiagnosticId id = dialect::kNoDiagnostic;  ///< E152, E153, E155, or W154 for a near miss.
+  /// E152, E153, E155, or W154 for a near miss; of the material E150, E151, W154, W156 to E158, W161.
+  dialect::DiagnosticId id = dialect::kNoDiagnostic;
   std::size_t line = 0;      ///< Of the first touch; of a near miss, of the nearest place; from 0.
   std::size_t end_line = 0;  ///< Of the last touch.
   double time = 0;           ///< Of the first touch, or of the nearest place; seconds since the start of the run.
@@ -33,14 +35,24 @@ struct Contact {
   Mover mover = kSpindle;
   std::int32_t mistake = -1;  ///< Equal for contacts of the same mover, with the same tool, with the same obstacle.
   BodyDescription described;  ///< Where the obstacle is described.
+  bool is_of_material = false;
+  bool is_of_edge = false;       ///< W157: because the edge is too short.
+  double limit = 0;              ///< W157: how deep the tool may cut, mm.
+  std::optional<double> volume;  ///< W156, W161: of what is left or comes free, mm^3.
+  std::optional<double> enough;  ///< E150, E151: the Z, in `frame`, with which nothing would have been met; mm.
+  /// E150, E151, W154: the line that cut last what is met. E158: that which stopped the spindle. From 0.
+  std::optional<std::size_t> shaped_by;
 
   bool is_near_miss() const;
+  /// Whether nothing is hit and nothing passes near: a hint alone (W159), which lists of contacts leave out.
+  bool is_hint() const;
 };
 
 /// Why something could not be verified.
 enum class Gap : std::uint8_t {
   ToolWithoutShape,   ///< The mounted tool has no shape: only the nose and the machine have been compared.
   ToolWithoutLength,  ///< Its length is not known, so that nothing of it is at its place.
+  ResolutionTooFine,  ///< The stock would take more memory than there is for it: no material has been removed.
   Undecided,          ///< A motion for which neither a contact nor its absence could be proven.
   OtherPaths,         ///< A jump that other values of VGPL decide otherwise.
   OtherRegisters,     ///< A jump that other values of a register decide otherwise, which the program has not assigned.
@@ -52,15 +64,17 @@ struct Unverified {
   std::size_t line = 0;     ///< From 0.
   dialect::GivenName name;  ///< Of the tool or the register; none for the others.
   std::size_t paths = 1;    ///< Of OtherPaths: the number of paths that have been run.
+  double spacing = 0;       ///< Of ResolutionTooFine: one that would fit, mm.
 };
 
 /// What has been proven, and what not.
 struct Certificate {
-  std::size_t motions = 0;   ///< Motions of the machine that were examined.
-  std::size_t contacts = 0;  ///< Near misses do not count.
-  double epsilon = 0;        ///< Nothing nearer than this is unseen, mm.
-  std::string scene;         ///< The file that describes the setup, or the machine; as shown to users.
-  bool has_setup = true;     ///< Whether a setup is for the program.
+  std::size_t motions = 0;          ///< Motions of the machine that were examined.
+  std::size_t contacts = 0;         ///< Near misses do not count.
+  double epsilon = 0;               ///< Nothing nearer than this is unseen, mm.
+  std::optional<double> soft_disc;  ///< No overlap with material that holds a disc of this diameter is unseen, mm.
+  std::string scene;                ///< The file that describes the setup, or the machine; as shown to users.
+  bool has_setup = true;            ///< Whether a setup is for the program.
   std::vector<Unverified> gaps;
   std::size_t more_contacts = 0;          ///< Contacts beyond those that are kept.
   std::optional<std::size_t> stopped_at;  ///< The line at which an error stopped the run; from 0.

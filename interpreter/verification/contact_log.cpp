@@ -9,6 +9,7 @@ namespace isocnc::verification {
 using namespace dialect::literals;
 
 bool Contact::is_near_miss() const { return id == "near-miss"_diag; }
+bool Contact::is_hint() const { return id == "cuts-nothing"_diag; }
 
 static dialect::DiagnosticId contact_with(BodyRole role) {
   switch (role) {

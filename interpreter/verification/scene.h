@@ -25,7 +25,7 @@ enum class BodyRole : std::uint8_t {
   Fixture,     ///< A cup, a clamp, a stop.
   Spoilboard,  ///< The board below the workpiece, as far as nothing may go into it.
   Target,      ///< The finished part.
-  Stock,       ///< The blank. Hard bodies are not compared with it.
+  Stock,       ///< The blank. It is cut, and compared with what should not meet it.
   Machine,     ///< A part of the machine.
 };
 
@@ -51,6 +51,7 @@ struct ToolBodies {
   std::optional<solids::RevolvedBody> cutter;  ///< None: its shape is not known.
   std::optional<solids::RevolvedBody> shank;   ///< From the end of the cutter to the holder.
   std::optional<solids::RevolvedBody> holder;  ///< Up to the spindle nose.
+  std::optional<double> max_depth;             ///< How deep it may cut at once, mm.
   BodyDescription described;
 };
 
@@ -65,6 +66,7 @@ struct Scene {
   std::vector<SceneBody> setup;
   bool is_in_workpiece_frame = true;  ///< The frame of `setup`: that of the first G92, else the machine's.
   double clearance = 2;               ///< What is nearer, without a contact, is a near miss (W154); mm.
+  std::optional<double> resolution;   ///< How fine the stock is simulated, mm; none: as it fits.
   double target_tolerance = 0;        ///< Gouges of the target up to this depth are accepted, mm.
   std::string name;                   ///< The file that describes the setup, or the machine; as shown to users.
   bool has_setup = true;              ///< Otherwise these are the bodies of the machine alone.

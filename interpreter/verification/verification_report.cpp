@@ -45,6 +45,10 @@ static std::string in_words(const Unverified& gap, Language language) {
       return dialect::format(kOtherValues, language, "VGPL", line);
     case Gap::OtherRegisters:
       return dialect::format(kOtherValues, language, name, line);
+    case Gap::ResolutionTooFine:
+      return dialect::format(Text{"the material, which a resolution of {} mm would fit",
+                                  "il materiale, per cui ci sta una risoluzione di {} mm"},
+                             language, gap.spacing);
     case Gap::Undecided:
       break;
   }
@@ -68,11 +72,19 @@ std::string in_words(const Certificate& certificate, Language language) {
   static constexpr Text kOfMachine = {
       "verified: {}, {}; nothing nearer than {} mm unseen between the bodies of the machine in {}",
       "verificato: {}, {}; nulla di più vicino di {} mm sfugge tra i corpi della macchina in {}"};
-  std::string line =
-      dialect::format(certificate.has_setup ? kInSetup : kOfMachine, language,
-                      counted(certificate.motions, {"motion", "movimento"}, {"motions", "movimenti"}, language),
-                      counted(certificate.contacts, {"contact", "contatto"}, {"contacts", "contatti"}, language),
-                      certificate.epsilon, certificate.scene);
+  static constexpr Text kWithMaterial = {
+      "verified: {}, {}; nothing nearer than {} mm unseen, nor wider than {:.2f} mm in the material, in the setup of "
+      "{}",
+      "verificato: {}, {}; nulla di più vicino di {} mm sfugge, né di più largo di {:.2f} mm nel materiale, "
+      "nell'attrezzaggio di {}"};
+  const std::string motions = counted(certificate.motions, {"motion", "movimento"}, {"motions", "movimenti"}, language);
+  const std::string contacts =
+      counted(certificate.contacts, {"contact", "contatto"}, {"contacts", "contatti"}, language);
+  std::string line = certificate.soft_disc
+                         ? dialect::format(kWithMaterial, language, motions, contacts, certificate.epsilon,
+                                           *certificate.soft_disc, certificate.scene)
+                         : dialect::format(certificate.has_setup ? kInSetup : kOfMachine, language, motions, contacts,
+                                           certificate.epsilon, certificate.scene);
   const std::vector<std::string> gaps = not_verified(certificate, language);
   if (gaps.empty()) return line;
   return line + dialect::format(Text{"; not verified: {}", "; non verificato: {}"}, language, fmt::join(gaps, ", "));
@@ -82,10 +94,51 @@ std::string in_words(const Contact& contact, Language language) {
   return syntax::message(finding_of(contact), {}, language);
 }
 
-OrderedJson to_json(const std::vector<Contact>& contacts, const Certificate& certificate, Language language) {
+/// `1.234,5 cm3`.
+static std::string cubic_centimeters(double volume, Language language) {
+  const double tenths = std::round(volume / 100);
+  const auto whole = static_cast<std::size_t>(tenths / 10);
+  return fmt::format("{}{}{:.0f} cm3", grouped(whole, language), language == Language::English ? '.' : ',',
+                     tenths - static_cast<double>(whole) * 10);
+}
+
+std::string in_words(const MaterialReport& material, Language language) {
+  static constexpr Text kVolumes = {"material: {} removed of {}, {} left (resolution {:.3g} mm)\n",
+                                    "materiale: asportati {} di {}, restano {} (risoluzione {:.3g} mm)\n"};
+  static constexpr Text kTool = {"cut by {}: {} in {:.1f} s, up to {:.2f} mm deep and {:.2f} mm wide\n",
+                                 "asportato da {}: {} in {:.1f} s, fino a {:.2f} mm di profondità e {:.2f} mm di "
+                                 "larghezza\n"};
+  const double left = material.stock.volume();
+  std::string text = dialect::format(kVolumes, language, cubic_centimeters(material.blank_volume - left, language),
+                                     cubic_centimeters(material.blank_volume, language),
+                                     cubic_centimeters(left, language), material.stock.spacing());
+  for (const removal::RemovedByTool& each : material.by_tool)
+    text += dialect::format(kTool, language, running::tool_name(each.tool),
+                            cubic_centimeters(each.removed.volume, language), each.seconds, each.removed.depth,
+                            each.removed.width);
+  return text;
+}
+
+static void add(const MaterialReport& material, OrderedJson& json) {
+  const double left = material.stock.volume();
+  json["removedVolume"] = material.blank_volume - left;
+  json["remainingVolume"] = left;
+  json["resolution"] = material.stock.spacing();
+  json["tools"] = OrderedJson::array();
+  for (const removal::RemovedByTool& each : material.by_tool)
+    json["tools"].push_back({{"tool", running::tool_name(each.tool)},
+                             {"volume", each.removed.volume},
+                             {"depth", each.removed.depth},
+                             {"width", each.removed.width},
+                             {"seconds", each.seconds}});
+}
+
+OrderedJson to_json(const VerifiedRun& verified, Language language) {
+  const Certificate& certificate = *verified.certificate;
   OrderedJson json = {{"motions", certificate.motions}, {"contacts", OrderedJson::array()}};
   OrderedJson near_misses = OrderedJson::array();
-  for (const Contact& contact : contacts) {
+  for (const Contact& contact : verified.contacts) {
+    if (contact.is_hint()) continue;
     OrderedJson each = {{"code", dialect::definition(contact.id).code},
                         {"line", contact.line + 1},
                         {"endLine", contact.end_line + 1},
@@ -96,6 +149,9 @@ OrderedJson to_json(const std::vector<Contact>& contacts, const Certificate& cer
                         {"obstacle", contact.whom.in(language)},
                         {"point", running::array(contact.point)}};
     if (contact.tool != execution::ToolCode()) each["tool"] = running::tool_name(contact.tool);
+    if (contact.enough) each["enoughZ"] = *contact.enough;
+    if (contact.volume) each["volume"] = *contact.volume;
+    if (contact.shaped_by) each["shapedBy"] = *contact.shaped_by + 1;
     if (contact.is_near_miss()) {
       each["distance"] = contact.distance;
       near_misses.push_back(std::move(each));
@@ -105,9 +161,11 @@ OrderedJson to_json(const std::vector<Contact>& contacts, const Certificate& cer
     }
   }
   json["nearMisses"] = std::move(near_misses);
-  json["certificate"] = {{"hardEpsilon", certificate.epsilon},
-                         {"setup", certificate.scene},
-                         {"notVerified", not_verified(certificate, language)}};
+  if (verified.material) add(*verified.material, json);
+  json["certificate"] = {{"hardEpsilon", certificate.epsilon}};
+  if (certificate.soft_disc) json["certificate"]["softDisc"] = *certificate.soft_disc;
+  json["certificate"]["setup"] = certificate.scene;
+  json["certificate"]["notVerified"] = not_verified(certificate, language);
   return json;
 }
 

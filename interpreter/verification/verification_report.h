@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "interpreter/verification/contact.h"
+#include "interpreter/verification/verified_run.h"
 
 namespace isocnc::verification {
 
@@ -16,10 +16,14 @@ std::string in_words(const Certificate& certificate, dialect::Language language)
 /// What a contact's finding says.
 std::string in_words(const Contact& contact, dialect::Language language);
 
+/// What has become of the material, as lines: the volume that is removed and remains, and the work of each tool.
+std::string in_words(const MaterialReport& material, dialect::Language language);
+
 /// `{"motions", "contacts": [{"code", "line", "endLine", "time", "tool", "body", "obstacle", "point", "depth"}],
-/// "nearMisses": [... "distance" ...], "certificate": {"hardEpsilon", "setup", "notVerified"}}`: lines from 1, seconds,
-/// mm, points in machine coordinates.
-nlohmann::ordered_json to_json(const std::vector<Contact>& contacts, const Certificate& certificate,
-                               dialect::Language language);
+/// "nearMisses": [... "distance" ...], "removedVolume", "remainingVolume", "resolution", "tools": [{"tool", "volume",
+/// "depth", "width", "seconds"}], "certificate": {"hardEpsilon", "softDisc", "setup", "notVerified"}}`: lines from 1,
+/// seconds, mm, mm^3, points in machine coordinates. What is about material is there where the setup describes a
+/// stock. `verified` has a certificate.
+nlohmann::ordered_json to_json(const VerifiedRun& verified, dialect::Language language);
 
 }  // namespace isocnc::verification

@@ -18,15 +18,30 @@ using simulation::RunFinding;
 /// A value as a message shows it.
 static double rounded(double value, double unit) { return std::round(value / unit) * unit; }
 
+/// The finding that tells what goes wrong with the material.
+static syntax::Finding finding_about_material(const Contact& contact, const geometry::Vec3& point) {
+  const double amount = rounded(std::max(0.0, -contact.distance), 0.01);
+  syntax::Finding finding{.id = contact.id,
+                          .values = {amount, point.x(), point.y(), point.z(), rounded(contact.time, 0.1)},
+                          .names = {contact.who, contact.whom}};
+  if (contact.id == "cuts-nothing"_diag) finding.values[0] = std::round(amount);
+  if (contact.id == "cut-too-deep"_diag) finding.values[5] = rounded(contact.limit, 0.01);
+  if (contact.volume) finding.values[5] = rounded(*contact.volume / 1000, 0.01);
+  if (contact.enough) finding.values[5] = *contact.enough;
+  if (contact.is_of_edge) finding.cause = "cut-too-deep/edge-too-short"_cause.number;
+  return finding;
+}
+
 syntax::Finding finding_of(const Contact& contact) {
   constexpr double kSmallestAmount = 0.01;
-  const geometry::Vec3 point = contact.frame.to_inner(contact.point);
+  geometry::Vec3 point = contact.frame.to_inner(contact.point);
+  for (double& each : point) each = rounded(each, 0.01);
+  if (contact.is_of_material && !contact.is_near_miss()) return finding_about_material(contact, point);
   const double signed_amount = contact.is_near_miss() ? contact.distance : -contact.distance;
   const double amount = std::max(kSmallestAmount, rounded(signed_amount, 0.01));
   return {
       .id = contact.id,
-      .values = {amount, rounded(point.x(), 0.01), rounded(point.y(), 0.01), rounded(point.z(), 0.01),
-                 rounded(contact.time, 0.1)},
+      .values = {amount, point.x(), point.y(), point.z(), rounded(contact.time, 0.1)},
       .names = {contact.who, contact.whom},
       .described = contact.described.file.empty() ? dialect::GivenPlace() : dialect::GivenPlace::of(contact.described)};
 }
@@ -41,6 +56,8 @@ static dialect::Cause cause_of(Gap gap) {
       return "not-verified/other-paths"_cause;
     case Gap::OtherRegisters:
       return "not-verified/other-registers"_cause;
+    case Gap::ResolutionTooFine:
+      return "not-verified/resolution-too-fine"_cause;
     case Gap::Undecided:
       break;
   }
@@ -49,7 +66,10 @@ static dialect::Cause cause_of(Gap gap) {
 
 syntax::Finding finding_of(const Unverified& gap) {
   const dialect::Cause cause = cause_of(gap.gap);
-  return {.id = cause.id, .cause = cause.number, .values = {static_cast<double>(gap.paths)}, .names = {gap.name}};
+  return {.id = cause.id,
+          .cause = cause.number,
+          .values = {static_cast<double>(gap.paths), gap.spacing},
+          .names = {gap.name}};
 }
 
 /// The contacts as findings show them. Of one mistake the first stands for all, and shows the deepest place of all.
@@ -63,6 +83,7 @@ static std::vector<Contact> shown_contacts(const std::vector<Contact>& contacts)
     first.distance = contact.distance;
     first.point = contact.point;
     first.frame = contact.frame;
+    first.enough = contact.enough;
   }
   return shown;
 }
@@ -101,16 +122,22 @@ VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier,
   verifier.finish();
   VerifiedRun verified{
       .outcome = std::move(outcome), .contacts = verifier.contacts(), .certificate = verifier.certificate()};
+  if (const removal::MaterialCheck* const material = verifier.material())
+    verified.material = MaterialReport{.blank_volume = material->blank_volume(),
+                                       .by_tool = material->removed_by_tool(),
+                                       .by_line = material->removed_by_line(),
+                                       .stock = material->stock(),
+                                       .origin = material->workpiece().origin};
   if (result.ending == running::Ending::Error) verified.certificate->stopped_at = result.line;
   add_findings(verified.outcome, verified.contacts, *verified.certificate, text);
   return verified;
 }
 
 VerifiedRun verified_run(std::string_view text, running::RunOptions options, const simulation::TimedMachine& machine,
-                         const Scene* scene, WorkTogether work_together) {
+                         const Scene* scene, WorkTogether work_together, const MaterialOptions& material) {
   if (!scene) return {.outcome = simulation::outcome_of_run(text, std::move(options), machine)};
   simulation::RunFindings findings(machine);
-  Verifier verifier(*scene, machine, first_workpiece_origin(text, options), std::move(work_together));
+  Verifier verifier(*scene, machine, first_workpiece_origin(text, options), std::move(work_together), material);
   simulation::Timing timing(machine,
                             {.event =
                                  [&](const simulation::TimedEvent& timed) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "interpreter/simulation/run_findings.h"
+#include "interpreter/verification/material.h"
 #include "interpreter/verification/verifier.h"
 
 namespace isocnc::verification {
@@ -14,6 +15,7 @@ struct VerifiedRun {
   simulation::RunOutcome outcome;          ///< With the findings of the scene.
   std::vector<Contact> contacts;           ///< By time.
   std::optional<Certificate> certificate;  ///< None without a scene.
+  std::optional<MaterialReport> material;  ///< None if the scene describes no stock.
 };
 
 /// The finding that tells a contact, without a span.
@@ -30,6 +32,6 @@ VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier,
 /// Runs a program on the machine and returns what that shows, in a scene if there is one. Without a scene, no times are
 /// computed. `options.before_block` is replaced.
 VerifiedRun verified_run(std::string_view text, running::RunOptions options, const simulation::TimedMachine& machine,
-                         const Scene* scene, WorkTogether work_together = {});
+                         const Scene* scene, WorkTogether work_together = {}, const MaterialOptions& material = {});
 
 }  // namespace isocnc::verification

@@ -1,6 +1,10 @@
 #include "interpreter/verification/verifier.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "interpreter/running/runner.h"
@@ -16,7 +20,7 @@ static constexpr std::size_t kPart = 1024;
 static constexpr std::size_t kBatch = 16 * kPart;
 
 Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, const Vec3& origin,
-                   WorkTogether work_together)
+                   WorkTogether work_together, const MaterialOptions& material)
     : scene_(scene),
       machine_(machine),
       origin_(origin),
@@ -25,6 +29,15 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
   certificate_.epsilon = kContactDistance / 2;
   certificate_.scene = scene.name;
   certificate_.has_setup = scene.has_setup;
+  std::optional<removal::Workpiece> workpiece = workpiece_of(scene, origin, material);
+  if (!workpiece) return;
+  if (const auto coarser = coarser_spacing(*workpiece)) {
+    certificate_.gaps.push_back({.gap = Gap::ResolutionTooFine, .line = 0, .spacing = *coarser});
+    return;
+  }
+  material_.emplace(*std::move(workpiece), machine, work_together_);
+  constexpr double kDiagonal = 1.4142135623730951;
+  certificate_.soft_disc = kDiagonal * material_->stock().spacing() + 2 * material_->skin();
 }
 
 void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
@@ -32,6 +45,7 @@ void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent
   rest_.reset();
   stretches_.push_back(stretch);
   waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1});
+  if (material_) material_->take(stretch, event, frames_.back());
   if (stretches_.size() == kBatch) examine_waiting();
 }
 
@@ -42,6 +56,7 @@ void Verifier::take(const simulation::TimedEvent& event) {
   }
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what))
     mount(tool->tool, event.event.line, event.start + event.duration);
+  if (material_) material_->take(event);
 }
 
 MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool) {
@@ -68,6 +83,7 @@ void Verifier::mount(const execution::ToolCode& tool, std::size_t line, double t
   tool_ = tool;
   const MountedTool mounted = mounted_tool(scene_, machine_, tool);
   bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted, origin_);
+  if (material_) material_->mount(tool, cutting_tool(scene_, mounted));
   if (last_) rest_ = rest_after(*last_, machine_.motion.kinematics, mounted.length, time);
   rest_line_ = line;
   const bool has_length = mounted.length > 0;
@@ -128,6 +144,31 @@ void Verifier::finish() {
   contacts_ = log_.contacts();
   certificate_.contacts = log_.contact_count();
   certificate_.more_contacts = log_.left_out();
+  if (material_) finish_material();
+}
+
+void Verifier::finish_material() {
+  material_->finish();
+  std::int32_t mistakes = 0;
+  for (const Contact& contact : contacts_) mistakes = std::max(mistakes, contact.mistake + 1);
+  // One slip repeats with a tool at one height, or until the spindle turns.
+  using Cause = std::tuple<removal::IncidentKind, removal::ToolPart, execution::ToolCode, std::int64_t>;
+  std::map<Cause, std::int32_t> numbers;
+  for (const removal::Incident& incident : material_->incidents()) {
+    Contact contact = contact_of(incident, scene_);
+    std::int64_t where = std::llround(incident.level * 10);
+    if (incident.kind == removal::IncidentKind::SpindleStopped)
+      where = static_cast<std::int64_t>(incident.shaped_by.value_or(0));
+    if (incident.volume) where = static_cast<std::int64_t>(numbers.size());  // Each for itself.
+    const auto next = mistakes + static_cast<std::int32_t>(numbers.size());
+    const Cause cause(incident.kind, incident.part, incident.tool, where);
+    contact.mistake = numbers.try_emplace(cause, next).first->second;
+    if (dialect::definition(contact.id).severity == dialect::Severity::Error) ++certificate_.contacts;
+    contacts_.push_back(contact);
+  }
+  std::stable_sort(contacts_.begin(), contacts_.end(),
+                   [](const Contact& a, const Contact& b) { return a.time < b.time; });
+  certificate_.more_contacts += material_->left_out();
 }
 
 /// Whether a program may have a G92; a glance that saves a run of those that have none.

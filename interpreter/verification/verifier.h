@@ -8,6 +8,7 @@
 
 #include "interpreter/simulation/timing.h"
 #include "interpreter/verification/contact_log.h"
+#include "interpreter/verification/material.h"
 
 namespace isocnc::verification {
 
@@ -20,7 +21,7 @@ class Verifier {
  public:
   /// Refers to the machine and the scene. `origin` is that of the first workpiece frame, machine frame, mm.
   Verifier(const Scene& scene, const simulation::TimedMachine& machine, const geometry::Vec3& origin,
-           WorkTogether work_together = {});
+           WorkTogether work_together = {}, const MaterialOptions& material = {});
 
   /// Takes a stretch of motion, with its event.
   void take(const motion::Stretch& stretch, const simulation::TimedEvent& event);
@@ -33,6 +34,8 @@ class Verifier {
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// After finish().
   const Certificate& certificate() const { return certificate_; }
+  /// After finish(). Null if the scene describes no stock, or it does not fit the memory.
+  const removal::MaterialCheck* material() const { return material_ ? &*material_ : nullptr; }
 
  private:
   /// A stretch that waits for being examined.
@@ -44,6 +47,7 @@ class Verifier {
   void mount(const execution::ToolCode& tool, std::size_t line, double time);
   void examine_waiting();
   void examine_rest();
+  void finish_material();
 
   const Scene& scene_;
   const simulation::TimedMachine& machine_;
@@ -60,6 +64,7 @@ class Verifier {
   std::optional<motion::Stretch> rest_;  ///< A tool change after which nothing has moved.
   std::size_t rest_line_ = 0;            ///< Its line.
   ContactLog log_;
+  std::optional<removal::MaterialCheck> material_;
   std::vector<Contact> contacts_;
   Certificate certificate_;
 };

@@ -1,0 +1,520 @@
+#include "interpreter/removal/material_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "interpreter/removal/left_material.h"
+#include "interpreter/simulation/spindle_turn.h"
+
+namespace isocnc::removal {
+
+using geometry::Vec3;
+using solids::RevolvedBody;
+using stock::Stock;
+using stock::Sweep;
+using stock::SweepOutcome;
+using stock::SweepPath;
+using stock::SweepPurpose;
+
+/// Stretches that wait at most.
+static constexpr std::size_t kBatch = 16'384;
+/// Incidents that are kept.
+static constexpr std::size_t kMaxIncidents = 10'000;
+/// How exactly the first touch is told, as a part of its sweep.
+static constexpr int kHalvings = 16;
+
+/// What a cut may leave standing beside its body, mm: a tenth of the spacing by the pieces of curved paths, and a
+/// little for rounding.
+static double skin_of(double spacing) { return spacing / 8 + 0.002; }
+
+MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine& machine, stock::Workers workers)
+    : workpiece_(std::move(workpiece)),
+      machine_(machine),
+      workers_(std::move(workers)),
+      stock_(workpiece_.blank, workpiece_.spacing),
+      blank_volume_(stock_.volume()),
+      skin_(skin_of(stock_.spacing())) {}
+
+void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& tool) {
+  cut_waiting();
+  close_all();
+  code_ = code;
+  tool_.reset();
+  // A wall of a cut is known to within a spacing.
+  forms_.emplace(tool, skin_, stock_.spacing(), workpiece_.clearance);
+}
+
+void MaterialCheck::take(const simulation::TimedEvent& event) {
+  if (const auto* const speed = std::get_if<running::SpindleSpeedEvent>(&event.event.what))
+    spindle_speed_ = speed->speed;
+  const auto before = spindle_;
+  last_line_ = event.event.line;
+  last_time_ = event.start + event.duration;
+  spindle_ = simulation::spindle_after(event.event, spindle_, spindle_speed_);
+  if (before.function != 5 && spindle_.function == 5) spindle_stopped_by_ = event.event.line;
+}
+
+void MaterialCheck::take(const motion::Stretch& stretch, const simulation::TimedEvent& event,
+                         const geometry::Frame& frame) {
+  if (!forms_ || !event.move) return;
+  const bool is_feed = event.move->feed.kind != kinematics::FeedKind::Rapid;
+  last_frame_ = frame;
+  if (frames_.empty() || !(frames_.back() == frame)) frames_.push_back(frame);
+  waiting_.push_back({.stretch = stretch, .line = event.event.line, .frame = frames_.size() - 1, .is_feed = is_feed});
+  const double begin = stretch.phases[0].from;
+  const double end = stretch.parameter_at(stretch.start + stretch.duration);
+  pieces_.clear();
+  append_tip_paths(machine_.motion.kinematics, stretch.path, begin, end, forms_->reach(), stock_.spacing() / 40,
+                   pieces_);
+  for (TipPath& piece : pieces_) {
+    waiting_.back().length += length_of(piece.path);
+    piece.path = moved(std::move(piece.path), -workpiece_.origin);
+    append_sweeps(piece, is_feed);
+  }
+  if (waiting_.size() == kBatch) cut_waiting();
+}
+
+void MaterialCheck::append_sweeps(const TipPath& piece, bool is_feed) {
+  if (!is_feed) {
+    append_sweep(forms_->passing_cutter(), piece, Role::RapidCutter);
+  } else if (spindle_.function == 5) {
+    append_sweep(forms_->passing_cutter(), piece, Role::StandingCutter);
+  }
+  append_sweep(forms_->cutter(), piece, Role::Cut);
+  append_sweep(forms_->shank(), piece, Role::Shank);
+  append_sweep(forms_->shank_with_wall(), piece, Role::ShankWall);
+  append_sweep(forms_->holder(), piece, Role::Holder);
+  append_sweep(forms_->holder_with_clearance(), piece, Role::HolderNear);
+  append_sweep(forms_->nose(), piece, Role::Nose, forms_->tool().length);
+  append_sweep(forms_->nose_with_clearance(), piece, Role::NoseNear, forms_->tool().length);
+}
+
+void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece, Role role, double height) {
+  if (!body) return;
+  if (height != 0) {
+    const SweepPath path = shifted_along_axis(piece.path, height);
+    if (!may_meet(*body, path)) return;
+    sweeps_.push_back({.body = body, .path = path, .purpose = SweepPurpose::Ask});
+  } else {
+    if (!may_meet(*body, piece.path)) return;
+    sweeps_.push_back({.body = body,
+                       .path = piece.path,
+                       .tag = static_cast<stock::CutTag>(waiting_.back().line),
+                       .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Ask});
+  }
+  uses_.push_back({static_cast<std::uint32_t>(waiting_.size() - 1), role, piece.from, piece.to});
+}
+
+/// False only if the body is above the blank all the time.
+bool MaterialCheck::may_meet(const RevolvedBody& body, const SweepPath& path) const {
+  const double top = stock_.bounds().max().z();
+  const Vec3 up(0, 0, 1);
+  if (const auto* const turning = std::get_if<stock::TurningPath>(&path)) {
+    const auto middle = [&](const solids::AxisPlacement& at) { return (at.origin + body.middle() * at.axis).z(); };
+    // While the axis turns, the middle of the body leaves its chord.
+    const double bulge = std::abs(body.middle()) * (1 - turning->from.axis.dot(turning->to.axis));
+    return std::min(middle(turning->from), middle(turning->to)) - bulge - body.sphere_radius() < top;
+  }
+  const auto* const straight = std::get_if<stock::StraightPath>(&path);
+  const Vec3& axis = straight ? straight->from.axis : std::get<stock::HelixPath>(path).axis;
+  const double lowest = lowest_along(path, up);
+  if (axis.z() == 1) return lowest + body.bottom() < top;
+  return lowest + body.middle() * axis.z() - body.sphere_radius() < top;
+}
+
+const RevolvedBody* MaterialCheck::body_of(Role role) const {
+  switch (role) {
+    case Role::Cut:
+      return forms_->cutter();
+    case Role::RapidCutter:
+    case Role::StandingCutter:
+      return forms_->passing_cutter();
+    case Role::Shank:
+      return forms_->shank();
+    case Role::ShankWall:
+      return forms_->shank_with_wall();
+    case Role::Holder:
+      return forms_->holder();
+    case Role::HolderNear:
+      return forms_->holder_with_clearance();
+    case Role::Nose:
+      return forms_->nose();
+    case Role::NoseNear:
+      return forms_->nose_with_clearance();
+  }
+  return nullptr;
+}
+
+const RevolvedBody* MaterialCheck::whole_body(ToolPart part) const {
+  const CuttingTool& tool = forms_->tool();
+  switch (part) {
+    case ToolPart::Cutter:
+      return tool.cutter;
+    case ToolPart::Shank:
+      return tool.shank;
+    case ToolPart::Holder:
+      return tool.holder;
+    case ToolPart::Nose:
+      break;
+  }
+  return tool.nose;
+}
+
+/// The path of a body in a role whose tip goes along a path.
+SweepPath MaterialCheck::placed(const SweepPath& tip, Role role) const {
+  const bool is_nose = role == Role::Nose || role == Role::NoseNear;
+  return is_nose ? shifted_along_axis(tip, forms_->tool().length) : tip;
+}
+
+void MaterialCheck::cut_waiting() {
+  std::vector<bool> has_cut(waiting_.size());
+  if (!sweeps_.empty()) {
+    const Stock before = stock_;
+    const std::vector<SweepOutcome> outcomes = stock_.apply(sweeps_, workers_);
+    for (std::size_t i = 0; i < sweeps_.size(); ++i) {
+      if (uses_[i].role == Role::Cut) account(i, outcomes[i]);
+      if (uses_[i].role == Role::Cut && outcomes[i].meets()) has_cut[uses_[i].stretch] = true;
+      if (outcomes[i].meets()) look_at(i, outcomes[i]);
+    }
+    look_closely(before);
+  }
+  note_ways(has_cut);
+  cut_ += waiting_.size();
+  waiting_.clear();
+  sweeps_.clear();
+  uses_.clear();
+  if (frames_.size() > 1) frames_.erase(frames_.begin(), frames_.end() - 1);
+}
+
+/// How wide a cut is that takes `volume` on a way of this length across the axis.
+static double width_of_cut(double volume, double depth, double length, double diameter) {
+  if (!(depth > 0)) return 0;
+  const double area = volume / depth;
+  // Of a plunge, the hole's diameter.
+  if (length < diameter / 20) return std::min(diameter, 2 * std::sqrt(area / 3.141592653589793));
+  return std::min(diameter, area / length);
+}
+
+static double length_across_axis(const SweepPath& path) {
+  if (const auto* const straight = std::get_if<stock::StraightPath>(&path))
+    return straight->from.axis.cross(straight->to - straight->from.origin).norm();
+  return length_of(path);
+}
+
+/// Notes what a cut has removed.
+void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
+  if (!outcome.meets()) return;
+  const SweepUse& use = uses_[sweep];
+  const WaitingStretch& stretch = waiting_[use.stretch];
+  Removed removed{.volume = outcome.volume, .depth = outcome.depth};
+  removed.width = width_of_cut(outcome.volume, outcome.depth, length_across_axis(sweeps_[sweep].path),
+                               2 * sweeps_[sweep].body->maximum_radius());
+  if (!tool_) {
+    const auto known =
+        std::find_if(by_tool_.begin(), by_tool_.end(), [&](const RemovedByTool& each) { return each.tool == code_; });
+    tool_ = static_cast<std::size_t>(known - by_tool_.begin());
+    if (known == by_tool_.end()) by_tool_.push_back({.tool = code_});
+  }
+  RemovedByTool& tool = by_tool_[*tool_];
+  tool.removed.add(removed);
+  const motion::Stretch& motion = stretch.stretch;
+  tool.seconds += motion.time_at(use.to) - motion.time_at(use.from);
+  if (by_line_.empty() || by_line_.back().line != stretch.line) by_line_.push_back({.line = stretch.line});
+  by_line_.back().removed.add(removed);
+}
+
+void MaterialCheck::look_at(std::size_t sweep, const SweepOutcome& outcome) {
+  switch (uses_[sweep].role) {
+    case Role::Cut:
+      if (outcome.depth > forms_->tool().max_depth + skin_)
+        touch({IncidentKind::CutTooDeep, ToolPart::Cutter}, sweep, outcome);
+      break;
+    case Role::RapidCutter:
+      return touch({IncidentKind::RapidInMaterial, ToolPart::Cutter}, sweep, outcome);
+    case Role::StandingCutter:
+      return touch({IncidentKind::SpindleStopped, ToolPart::Cutter}, sweep, outcome);
+    case Role::Shank:
+      return touch({IncidentKind::BodyInMaterial, ToolPart::Shank}, sweep, outcome);
+    case Role::ShankWall:
+      return touch({IncidentKind::EdgeTooShort, ToolPart::Shank}, sweep, outcome);
+    case Role::Holder:
+      return touch({IncidentKind::BodyInMaterial, ToolPart::Holder}, sweep, outcome);
+    case Role::HolderNear:
+      return touch({IncidentKind::NearMaterial, ToolPart::Holder}, sweep, outcome);
+    case Role::Nose:
+      return touch({IncidentKind::BodyInMaterial, ToolPart::Nose}, sweep, outcome);
+    case Role::NoseNear:
+      return touch({IncidentKind::NearMaterial, ToolPart::Nose}, sweep, outcome);
+  }
+}
+
+void MaterialCheck::touch(const EpisodeKey& key, std::size_t sweep, const SweepOutcome& outcome) {
+  const SweepUse& use = uses_[sweep];
+  const WaitingStretch& stretch = waiting_[use.stretch];
+  const std::size_t number = cut_ + use.stretch;
+  const auto [known, is_new] = open_.try_emplace(key);
+  Episode& episode = known->second;
+  const bool goes_on = !is_new && number <= episode.last_stretch + 1;
+  if (!is_new && !goes_on) close(episode);
+  if (!goes_on) {
+    episode = {.incident = {.kind = key.first,
+                            .part = key.second,
+                            .line = stretch.line,
+                            .time = stretch.stretch.time_at(use.from),
+                            .tool = code_},
+               .first_sweep = sweep};
+    if (key.first == IncidentKind::SpindleStopped) episode.incident.shaped_by = spindle_stopped_by_;
+  }
+  Incident& incident = episode.incident;
+  episode.last_stretch = number;
+  incident.end_line = stretch.line;
+  incident.end_time = stretch.stretch.time_at(use.to);
+  if (goes_on && !(outcome.depth > episode.deepest)) return;
+  episode.deepest = outcome.depth;
+  incident.amount = outcome.depth;
+  incident.point = in_machine(outcome.point);
+  incident.frame = frames_[stretch.frame];
+  episode.deepest_sweep = sweep;
+}
+
+/// Feed motions that meet nothing, one after another, are one.
+void MaterialCheck::note_ways(const std::vector<bool>& has_cut) {
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    const WaitingStretch& each = waiting_[i];
+    if (!each.is_feed || has_cut[i]) {
+      end_way();
+      continue;
+    }
+    if (!way_) way_ = {.kind = IncidentKind::CutsNothing, .line = each.line, .time = each.stretch.start, .tool = code_};
+    way_->end_line = each.line;
+    way_->end_time = each.stretch.start + each.stretch.duration;
+    way_->amount += each.length;
+  }
+}
+
+void MaterialCheck::end_way() {
+  if (way_ && way_->amount > workpiece_.longest_air_cut) keep(*way_);
+  way_.reset();
+}
+
+/// Goes through the batch once more, up to the sweeps in question: each is compared with the stock as it was then.
+void MaterialCheck::look_closely(Stock before) {
+  struct Question {
+    std::size_t sweep;
+    Episode* episode;
+    bool is_first;
+  };
+  std::vector<Question> questions;
+  const auto ask = [&](Episode& episode) {
+    if (episode.first_sweep) questions.push_back({*episode.first_sweep, &episode, true});
+    if (episode.deepest_sweep) questions.push_back({*episode.deepest_sweep, &episode, false});
+  };
+  for (auto& [key, episode] : open_) ask(episode);
+  for (Episode& episode : closed_) ask(episode);
+  std::stable_sort(questions.begin(), questions.end(),
+                   [](const Question& a, const Question& b) { return a.sweep < b.sweep; });
+  std::size_t done = 0;
+  std::vector<Sweep> cuts;
+  for (const Question& question : questions) {
+    if (looked_at_ >= kMaxLookedAt) break;
+    cuts.clear();
+    for (; done < question.sweep; ++done)
+      if (sweeps_[done].purpose == SweepPurpose::Cut) cuts.push_back(sweeps_[done]);
+    if (!cuts.empty()) before.apply(cuts, workers_);
+    if (question.is_first) {
+      find_first_touch(*question.episode, before);
+    } else {
+      ++looked_at_;
+      find_worst(*question.episode, before);
+    }
+  }
+  for (auto& [key, episode] : open_) episode.first_sweep = episode.deepest_sweep = std::nullopt;
+  for (Episode& episode : closed_) keep(episode.incident);
+  closed_.clear();
+}
+
+/// What a body meets on a path, in a stock as it is.
+static SweepOutcome ask(const Stock& stock, const RevolvedBody& body, const SweepPath& path) {
+  Stock copy = stock;  // Asking changes nothing; the copy is a pointer.
+  const Sweep sweep{.body = &body, .path = path, .purpose = SweepPurpose::Ask};
+  return copy.apply({&sweep, 1}).front();
+}
+
+void MaterialCheck::find_first_touch(Episode& episode, const Stock& before) {
+  const SweepUse& use = uses_[*episode.first_sweep];
+  const RevolvedBody* const body = body_of(use.role);
+  if (!body || use.role == Role::Cut) return;
+  const motion::Stretch& stretch = waiting_[use.stretch].stretch;
+  const auto meets_until = [&](double s) {
+    std::vector<TipPath> pieces;
+    append_tip_paths(machine_.motion.kinematics, stretch.path, use.from, s, forms_->reach(), stock_.spacing() / 40,
+                     pieces);
+    return std::any_of(pieces.begin(), pieces.end(), [&](const TipPath& piece) {
+      return ask(before, *body, placed(moved(piece.path, -workpiece_.origin), use.role)).meets();
+    });
+  };
+  double free = use.from;
+  double touching = use.to;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (free + touching) / 2;
+    (meets_until(middle) ? touching : free) = middle;
+  }
+  episode.incident.time = stretch.time_at(touching);
+}
+
+/// The height by which a path must be raised so that a body meets nothing; none if that does not help.
+static std::optional<double> enough_rise(const Stock& stock, const RevolvedBody& body, const SweepPath& path,
+                                         const Vec3& up) {
+  const auto is_free = [&](double rise) { return !ask(stock, body, moved(path, rise * up)).meets(); };
+  double free = stock.bounds().sizes().norm() + 1;
+  if (!is_free(free)) return std::nullopt;
+  for (double met = 0; free - met > 0.005;) {
+    const double middle = (met + free) / 2;
+    (is_free(middle) ? free : met) = middle;
+  }
+  return free;
+}
+
+void MaterialCheck::find_worst(Episode& episode, const Stock& before) {
+  const std::size_t index = *episode.deepest_sweep;
+  const SweepUse& use = uses_[index];
+  const SweepPath& path = sweeps_[index].path;
+  Incident& incident = episode.incident;
+  const auto set_shaper = [&] {
+    const Vec3 point = incident.point - workpiece_.origin;
+    if (incident.kind == IncidentKind::SpindleStopped) return;
+    incident.shaped_by.reset();
+    if (const auto tag = before.cut_by(point.x(), point.y())) incident.shaped_by = *tag;
+  };
+  set_shaper();
+  switch (incident.kind) {
+    case IncidentKind::RapidInMaterial:
+    case IncidentKind::SpindleStopped:
+    case IncidentKind::BodyInMaterial: {
+      // The whole body meets more than what counts of it.
+      const SweepOutcome whole = ask(before, *whole_body(incident.part), path);
+      incident.amount = whole.depth;
+      incident.point = in_machine(whole.point);
+      break;
+    }
+    case IncidentKind::EdgeTooShort: {
+      const double edge = forms_->tool().cutter->top();
+      incident.limit = edge;
+      incident.amount += edge;
+      break;
+    }
+    case IncidentKind::CutTooDeep:
+      incident.limit = forms_->tool().max_depth;
+      break;
+    case IncidentKind::NearMaterial: {
+      double clear = 0;
+      double near = workpiece_.clearance;
+      for (int i = 0; i < 10; ++i) {
+        const double middle = (clear + near) / 2;
+        (ask(before, grown(*whole_body(incident.part), middle), path).meets() ? near : clear) = middle;
+      }
+      incident.amount = near;
+      break;
+    }
+    default:
+      break;
+  }
+  const Vec3 up = incident.frame.axes.col(2);
+  // Of the tip, also where another body is in the material.
+  const bool is_nose = use.role == Role::Nose || use.role == Role::NoseNear;
+  const double lowest = lowest_along(is_nose ? shifted_along_axis(path, -forms_->tool().length) : path, up);
+  incident.level = lowest + up.dot(workpiece_.origin - incident.frame.origin);
+  const bool is_hit = incident.kind == IncidentKind::RapidInMaterial || incident.kind == IncidentKind::BodyInMaterial;
+  if (!is_hit) return;
+  incident.enough.reset();
+  if (const std::optional<double> rise = enough_rise(before, *body_of(use.role), path, up))
+    incident.enough = std::ceil((incident.level + *rise + skin_ - 0.01) * 10) / 10 + 0.0;  // No -0.
+}
+
+void MaterialCheck::close(Episode& episode) {
+  // What the present batch has shown of it is still to be looked at.
+  if (episode.first_sweep || episode.deepest_sweep) {
+    closed_.push_back(episode);
+  } else {
+    keep(episode.incident);
+  }
+}
+
+void MaterialCheck::close_all() {
+  end_way();
+  for (auto& [key, episode] : open_) close(episode);
+  open_.clear();
+}
+
+void MaterialCheck::keep(Incident incident) {
+  if (incidents_.size() < kMaxIncidents) {
+    incidents_.push_back(std::move(incident));
+  } else {
+    ++left_out_;
+  }
+}
+
+/// Whether an incident says what another one of the same moment says better: a tool that is too deep is so with all of
+/// its parts.
+static bool is_said_by(const Incident& each, const Incident& other) {
+  const bool is_meanwhile = each.tool == other.tool && each.time <= other.end_time && other.time <= each.end_time;
+  if (!is_meanwhile) return false;
+  switch (each.kind) {
+    case IncidentKind::NearMaterial:
+      return other.kind == IncidentKind::BodyInMaterial || other.kind == IncidentKind::RapidInMaterial ||
+             (other.kind == IncidentKind::NearMaterial && other.part < each.part);
+    case IncidentKind::EdgeTooShort:
+      return other.kind == IncidentKind::BodyInMaterial || other.kind == IncidentKind::RapidInMaterial ||
+             other.kind == IncidentKind::CutTooDeep;
+    case IncidentKind::BodyInMaterial:
+      return other.kind == IncidentKind::RapidInMaterial ||
+             (other.kind == IncidentKind::BodyInMaterial &&
+              (other.amount > each.amount || (other.amount == each.amount && other.part < each.part)));
+    case IncidentKind::CutTooDeep:
+      return other.kind == IncidentKind::RapidInMaterial;
+    default:
+      return false;
+  }
+}
+
+static void drop_said_twice(std::vector<Incident>& incidents) {
+  const std::vector<Incident> all = incidents;  // By time.
+  double longest = 0;
+  for (const Incident& each : all) longest = std::max(longest, each.end_time - each.time);
+  std::erase_if(incidents, [&](const Incident& each) {
+    const auto first = std::partition_point(all.begin(), all.end(),
+                                            [&](const Incident& other) { return other.time < each.time - longest; });
+    for (auto other = first; other != all.end() && other->time <= each.end_time; ++other)
+      if (is_said_by(each, *other)) return true;
+    return false;
+  });
+}
+
+void MaterialCheck::compare_with_target() {
+  if (!workpiece_.target) return;
+  for (const LeftRegion& region : left_on_target(stock_, *workpiece_.target, workpiece_.tolerance)) {
+    const std::size_t line = region.last_cut.value_or(static_cast<stock::CutTag>(last_line_));
+    keep({.kind = IncidentKind::MaterialLeft,
+          .line = line,
+          .end_line = line,
+          .time = last_time_,
+          .end_time = last_time_,
+          .tool = code_,
+          .amount = region.height,
+          .volume = region.volume,
+          .point = in_machine(region.point),
+          .frame = last_frame_});
+  }
+}
+
+void MaterialCheck::finish() {
+  cut_waiting();
+  close_all();
+  std::stable_sort(incidents_.begin(), incidents_.end(),
+                   [](const Incident& a, const Incident& b) { return a.time < b.time; });
+  drop_said_twice(incidents_);
+  compare_with_target();
+}
+
+}  // namespace isocnc::removal

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "interpreter/removal/incident.h"
+#include "interpreter/removal/tip_paths.h"
+#include "interpreter/removal/tool_forms.h"
+#include "interpreter/simulation/timing.h"
+#include "interpreter/stock/stock.h"
+
+namespace isocnc::removal {
+
+/// Cuts the blank along a run, and finds what goes wrong with its material. It hears what Timing tells its listeners.
+/// What it finds does not depend on the number of threads. Its memory does not depend on the number of motions, but for
+/// what it notes of each line.
+class MaterialCheck {
+ public:
+  /// Refers to the machine.
+  MaterialCheck(Workpiece workpiece, const simulation::TimedMachine& machine, stock::Workers workers = {});
+
+  /// Another tool is mounted.
+  void mount(const execution::ToolCode& code, const CuttingTool& tool);
+  /// Takes a stretch of motion, with its event and the frame in force.
+  void take(const motion::Stretch& stretch, const simulation::TimedEvent& event, const geometry::Frame& frame);
+  /// Takes an event that has been made.
+  void take(const simulation::TimedEvent& event);
+  /// Ends the run.
+  void finish();
+
+  /// After finish(): by time.
+  const std::vector<Incident>& incidents() const { return incidents_; }
+  std::size_t left_out() const { return left_out_; }  ///< Incidents beyond those that are kept.
+  /// After finish(), in the order of their first use.
+  const std::vector<RemovedByTool>& removed_by_tool() const { return by_tool_; }
+  /// After finish(): lines that removed something, in the order of the run.
+  const std::vector<RemovedByLine>& removed_by_line() const { return by_line_; }
+  const stock::Stock& stock() const { return stock_; }  ///< In the frame of the setup.
+  /// How much thinner bodies count than they are, all around, mm: what a cut may leave beside its body.
+  double skin() const { return skin_; }
+  double blank_volume() const { return blank_volume_; }
+  const Workpiece& workpiece() const { return workpiece_; }
+
+ private:
+  /// What a sweep is for.
+  enum class Role : std::uint8_t {
+    Cut,
+    RapidCutter,
+    StandingCutter,
+    Shank,
+    ShankWall,
+    Holder,
+    HolderNear,
+    Nose,
+    NoseNear
+  };
+
+  /// A stretch that waits for being cut.
+  struct WaitingStretch {
+    motion::Stretch stretch;
+    std::size_t line = 0;
+    std::size_t frame = 0;  ///< Index of the frame in force.
+    bool is_feed = false;
+    double length = 0;  ///< Of the tip's path, mm.
+  };
+
+  /// A sweep's purpose, beside the sweep.
+  struct SweepUse {
+    std::uint32_t stretch = 0;  ///< Index among those that wait.
+    Role role = Role::Cut;
+    double from = 0;  ///< Path parameters.
+    double to = 0;
+  };
+
+  /// An incident that may go on.
+  struct Episode {
+    Incident incident;
+    std::size_t last_stretch = 0;              ///< Counted from the start of the run.
+    double deepest = 0;                        ///< Of the sweeps that have been compared, mm.
+    std::optional<std::size_t> first_sweep;    ///< Of the present batch, where it begins there.
+    std::optional<std::size_t> deepest_sweep;  ///< Of the present batch, where it is worst there.
+  };
+  using EpisodeKey = std::pair<IncidentKind, ToolPart>;
+
+  void append_sweeps(const TipPath& piece, bool is_feed);
+  void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role, double height = 0);
+  bool may_meet(const solids::RevolvedBody& body, const stock::SweepPath& path) const;
+  void cut_waiting();
+  void account(std::size_t sweep, const stock::SweepOutcome& outcome);
+  void look_at(std::size_t sweep, const stock::SweepOutcome& outcome);
+  void touch(const EpisodeKey& key, std::size_t sweep, const stock::SweepOutcome& outcome);
+  void note_ways(const std::vector<bool>& has_cut);
+  void end_way();
+  void look_closely(stock::Stock before);
+  void find_first_touch(Episode& episode, const stock::Stock& before);
+  void find_worst(Episode& episode, const stock::Stock& before);
+  stock::SweepPath placed(const stock::SweepPath& tip, Role role) const;
+  void compare_with_target();
+  void close(Episode& episode);
+  void close_all();
+  void keep(Incident incident);
+  const solids::RevolvedBody* body_of(Role role) const;
+  const solids::RevolvedBody* whole_body(ToolPart part) const;
+  geometry::Vec3 in_machine(const geometry::Vec3& point) const { return point + workpiece_.origin; }
+
+  Workpiece workpiece_;
+  const simulation::TimedMachine& machine_;
+  stock::Workers workers_;
+  stock::Stock stock_;
+  double blank_volume_ = 0;
+  double skin_;
+  execution::ToolCode code_;
+  std::optional<ToolForms> forms_;
+  std::optional<std::size_t> tool_;  ///< Index into by_tool_, once the mounted tool has removed something.
+  simulation::Timing::SpindleMotion spindle_;
+  double spindle_speed_ = 0;
+  std::optional<std::size_t> spindle_stopped_by_;
+  std::size_t last_line_ = 0;  ///< Of the events.
+  double last_time_ = 0;
+  geometry::Frame last_frame_;
+  std::vector<geometry::Frame> frames_;
+  std::vector<WaitingStretch> waiting_;
+  std::vector<stock::Sweep> sweeps_;
+  std::vector<SweepUse> uses_;
+  std::vector<TipPath> pieces_;  ///< Kept, so that its memory is.
+  std::size_t cut_ = 0;          ///< Stretches that have been cut.
+  std::map<EpisodeKey, Episode> open_;
+  std::vector<Episode> closed_;  ///< Of the present batch.
+  /// Incidents are looked at closely up to this number: each takes some thousand sweeps.
+  static constexpr std::size_t kMaxLookedAt = 500;
+  std::size_t looked_at_ = 0;
+  std::vector<Incident> incidents_;
+  std::size_t left_out_ = 0;
+  std::optional<Incident> way_;  ///< Feed motions that have met nothing so far.
+  std::vector<RemovedByTool> by_tool_;
+  std::vector<RemovedByLine> by_line_;
+};
+
+}  // namespace isocnc::removal

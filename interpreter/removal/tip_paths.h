@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "interpreter/kinematics/path.h"
+#include "interpreter/stock/sweep.h"
+
+namespace isocnc::removal {
+
+/// A piece of the tip's path while the tool goes along a stretch of motion, in the workpiece's eyes: machine frame of
+/// the program, mm.
+struct TipPath {
+  stock::SweepPath path;
+  double from = 0;  ///< Path parameter at its start.
+  double to = 0;    ///< Path parameter at its end.
+};
+
+/// Appends the path of the tip for path parameters from `from` to `to`. Lines, arcs and helices are exact while B and C
+/// rest. Other paths are divided, so that no point of the tool up to `reach` mm above the tip strays from its own path
+/// by more than `tolerance` mm.
+void append_tip_paths(const kinematics::Kinematics& kinematics, const kinematics::Path& path, double from, double to,
+                      double reach, double tolerance, std::vector<TipPath>& pieces);
+
+/// The same path for a point of the tool's axis `height` mm above the tip.
+stock::SweepPath shifted_along_axis(const stock::SweepPath& path, double height);
+
+/// The same path, moved by `shift`.
+stock::SweepPath moved(stock::SweepPath path, const geometry::Vec3& shift);
+
+/// Length of the path, mm.
+double length_of(const stock::SweepPath& path);
+
+/// The lowest coordinate of the path along a direction, mm.
+double lowest_along(const stock::SweepPath& path, const geometry::Vec3& direction);
+
+}  // namespace isocnc::removal

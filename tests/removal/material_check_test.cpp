@@ -1,0 +1,265 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tests/verification/scenes.h"
+
+namespace isocnc::verification {
+namespace {
+
+using dialect::Language;
+using kinematics::MachineKind;
+using std::numbers::pi;
+
+/// A block of 100 x 100 x 40 mm, its upper face at Z40, and the tool T101001: a flat cutter of radius 10 and length 60
+/// in a holder of diameter 50.
+struct Bench : Shop {
+  explicit Bench(MachineKind kind = MachineKind::ThreeAxis) : Shop(kind) {
+    scene.nose.reset();
+    box("", {300, 100, 0}, {400, 200, 40}, BodyRole::Stock);
+    scene.resolution = 0.5;
+  }
+
+  VerifiedRun cut(const std::string& moves, WorkTogether together = {}) const {
+    return run("M06 T101001\nS12000 M03\n" + moves + "M02\n", std::move(together));
+  }
+};
+
+/// `E150 5 40.00 @ 350 150 30`: code, line from 1, depth or distance, place in the frame in force.
+std::vector<std::string> told(const VerifiedRun& run) {
+  std::vector<std::string> all;
+  for (const Contact& each : run.contacts) {
+    if (each.is_hint()) continue;
+    all.push_back(
+        fmt::format("{} {} {:.1f}", dialect::definition(each.id).code, each.line + 1, std::abs(each.distance)));
+    if (each.enough) all.back() += fmt::format(" Z{:.1f}", *each.enough);
+  }
+  return all;
+}
+
+using Lines = std::vector<std::string>;
+
+double removed(const VerifiedRun& run) { return run.material->blank_volume - run.material->stock.volume(); }
+
+TEST(Material, SlotsHaveTheVolumeOfTheirClosedForm) {
+  // A stadium of radius 10 whose ends are 40 mm apart, 5 mm deep, at eight angles.
+  for (int i = 0; i < 8; ++i) {
+    const double angle = i * pi / 8 + 0.1;
+    const double x = 20 * std::cos(angle);
+    const double y = 20 * std::sin(angle);
+    const VerifiedRun run = Bench().cut(fmt::format(
+        "G00 X{:.4f} Y{:.4f} Z50\nG01 Z35 F1000\nX{:.4f} Y{:.4f}\nG00 Z50\n", 350 - x, 150 - y, 350 + x, 150 + y));
+    EXPECT_EQ(told(run), Lines());
+    const double exact = (pi * 100 + 2 * 10 * 40) * 5;
+    EXPECT_NEAR(removed(run), exact, 0.003 * exact);
+    ASSERT_EQ(run.material->by_tool.size(), 1u);
+    EXPECT_NEAR(run.material->by_tool[0].removed.depth, 5, 0.001);
+    EXPECT_NEAR(run.material->by_tool[0].removed.width, 20, 0.3);
+  }
+}
+
+TEST(Material, RapidsThroughIt) {
+  // Across, 35 mm below its face.
+  EXPECT_EQ(told(Bench().cut("G00 X250 Y150 Z50\nZ5\nX500\nZ50\n")), Lines{"E150 5 35.0 Z40.0"});
+  // Down into it.
+  EXPECT_EQ(told(Bench().cut("G00 X350 Y150 Z50\nZ30\nZ50\n")), Lines{"E150 4 10.0 Z40.0"});
+  // On it, beside it and above it.
+  EXPECT_EQ(told(Bench().cut("G00 X250 Y150 Z50\nZ40\nX500\nZ50\n")), Lines());
+  EXPECT_EQ(told(Bench().cut("G00 X250 Y89.9 Z50\nZ5\nX500\nZ50\n")), Lines());
+}
+
+TEST(Material, RapidsThroughWhatIsCutMeetNothing) {
+  // Back through a slot, an arc, a ramp and a rounded corner, out of a hole.
+  EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z30 F1000\nX380\nG00 X320\nZ50\n")), Lines());
+  EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z30 F1000\nG02 X380 Y150 I350 J150\nG00 Z50\n")), Lines());
+  EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z40 F1000\nX380 Z25\nG00 X320 Z40\nZ50\n")), Lines());
+  EXPECT_EQ(told(Bench().cut("G48\nG00 X320 Y120 Z50\nG01 Z30 F9000\nX380\nY180\nX320\nG00 Z50\n")), Lines());
+  EXPECT_EQ(told(Bench().cut("G00 X350 Y150 Z50\nG01 Z10 F1000\nG00 Z50\n")), Lines());
+}
+
+TEST(Material, OneFindingForOneContact) {
+  const VerifiedRun run = Bench().cut("G00 X250 Y150 Z50\nZ5\nX320\nX380\nX500\nZ50\n");
+  ASSERT_EQ(told(run), Lines{"E150 5 35.0 Z40.0"});
+  EXPECT_EQ(run.contacts[0].end_line + 1, 7u);
+  ASSERT_EQ(run.outcome.findings.size(), 1u);
+  EXPECT_EQ(run.outcome.findings[0].last_line, 6u);
+}
+
+TEST(Material, TheFirstTouchIsToldAtItsTime) {
+  // At 60 m/min, the cutter's rim reaches the block after 40 of 250 mm.
+  const VerifiedRun run = Bench().cut("G00 X250 Y150 Z50\nZ5\nG04 P1\nX500\nZ50\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  Bench without;
+  without.scene.setup.clear();
+  without.box("wall", {300, 100, 0}, {400, 200, 40});
+  const VerifiedRun hard = without.cut("G00 X250 Y150 Z50\nZ5\nG04 P1\nX500\nZ50\n");
+  ASSERT_GE(hard.contacts.size(), 1u);
+  EXPECT_NEAR(run.contacts[0].time, hard.contacts[0].time, 0.005);
+}
+
+TEST(Material, TheFrameInForceGivesPlaceAndHeight) {
+  const VerifiedRun run = Bench().cut("G92 X300 Y100 Z40\nG00 X-50 Y50 Z10\nZ-35\nX200\nZ10\n");
+  // The setup's frame is that of the first G92.
+  EXPECT_EQ(told(run), Lines());
+  Bench bench;
+  bench.scene.is_in_workpiece_frame = false;
+  const VerifiedRun in_machine = bench.cut("G92 X300 Y100 Z40\nG00 X-50 Y50 Z10\nZ-35\nX200\nZ10\n");
+  EXPECT_EQ(told(in_machine), Lines{"E150 6 35.0 Z0.0"});
+}
+
+TEST(Material, HolderInIt) {
+  // The holder's face is 60 mm above the tip.
+  EXPECT_EQ(told(Bench().cut("G00 X350 Y150 Z50\nG01 Z-25 F1000\nG00 Z50\n")), Lines{"E151 4 5.0 Z-20.0"});
+  // 1 mm above it: nearer than the clearance of 2 mm.
+  EXPECT_EQ(told(Bench().cut("G00 X350 Y150 Z50\nG01 Z-19 F1000\nG00 Z50\n")), Lines{"W154 4 1.0"});
+  EXPECT_EQ(told(Bench().cut("G00 X350 Y150 Z50\nG01 Z-17.9 F1000\nG00 Z50\n")), Lines());
+  // Beside the block, the holder reaches over it.
+  EXPECT_EQ(told(Bench().cut("G00 X280 Y150 Z50\nG01 Z-25 F1000\nG00 Z50\n")), Lines{"E151 4 5.0 Z-20.0"});
+  EXPECT_EQ(told(Bench().cut("G00 X272 Y150 Z50\nG01 Z-25 F1000\nG00 Z50\n")), Lines());
+}
+
+TEST(Material, HolderOverWhatIsCutAway) {
+  // The same depth, where the block has been lowered before.
+  EXPECT_EQ(told(Bench().cut(
+                "G00 X250 Y100 Z50\nG01 Z30 F9000\nX450\nY110\nX250\nY120\nX450\nY130\nX250\nY140\nX450\nY150\n"
+                "X250\nY160\nX450\nY170\nX250\nY180\nX450\nY190\nX250\nY200\nX450\nG00 Z50\nX350 Y150\nG01 Z-25 F1000\n"
+                "G00 Z50\n")),
+            Lines());
+}
+
+TEST(Material, SpindleStopped) {
+  const auto stopped = [](const std::string& program) { return told(Bench().run(program)); };
+  EXPECT_EQ(stopped("M06 T101001\nG00 X350 Y150 Z50\nG01 Z35 F1000\nG00 Z50\nM02\n"), Lines{"E158 3 5.0"});
+  EXPECT_EQ(stopped("M06 T101001\nS9000 M03\nG00 X350 Y150 Z50\nG01 Z35 F1000\nM05\nX370\nG00 Z50\nM02\n"),
+            Lines{"E158 6 5.0"});
+  // It stands, but cuts nothing.
+  EXPECT_EQ(stopped("M06 T101001\nG00 X350 Y150 Z50\nG01 Z40 F1000\nG00 Z50\nM02\n"), Lines());
+  EXPECT_EQ(stopped("M06 T101001\nS9000 M04\nG00 X350 Y150 Z50\nG01 Z35 F1000\nG00 Z50\nM02\n"), Lines());
+}
+
+TEST(Material, OneStoppedSpindleIsOneMistake) {
+  const VerifiedRun run =
+      Bench().run("M06 T101001\nG00 X320 Y150 Z50\nG01 Z35 F1000\nG00 Z50\nX370\nG01 Z35\nG00 Z50\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 2u);
+  EXPECT_EQ(run.contacts[0].mistake, run.contacts[1].mistake);
+}
+
+TEST(Material, DeeperThanTheToolAllows) {
+  Bench bench;
+  bench.scene.tools[Shop::kTool].max_depth = 8;
+  EXPECT_EQ(told(bench.cut("G00 X250 Y150 Z50\nG01 Z31.9 F1000\nX450\nG00 Z50\n")), Lines{"W157 5 8.1"});
+  EXPECT_EQ(told(bench.cut("G00 X250 Y150 Z50\nG01 Z32.1 F1000\nX450\nG01 Z25\nX250\nG00 Z50\n")), Lines());
+}
+
+TEST(Material, EdgeThatIsTooShort) {
+  Bench bench;
+  ToolBodies& tool = bench.scene.tools[Shop::kTool];
+  tool.cutter = Shop::body(solids::flat_body(10, 20));
+  const auto shank = [&](double radius) {
+    const solids::FormPoint points[] = {{20, radius}, {60, radius}};
+    tool.shank = Shop::body(solids::form_body(points));
+  };
+  const std::string slot = "G00 X250 Y150 Z50\nG01 Z25 F1000\nX450\nZ{}\nX250\nG00 Z50\n";
+  shank(10);
+  const VerifiedRun rubs = bench.cut(fmt::format(fmt::runtime(slot), 12));
+  EXPECT_EQ(told(rubs), Lines{"W157 7 28.0"});
+  EXPECT_EQ(rubs.contacts[0].limit, 20);
+  EXPECT_EQ(told(bench.cut(fmt::format(fmt::runtime(slot), 21))), Lines());
+  // A thinner shank stands clear of the walls.
+  shank(8);
+  EXPECT_EQ(told(bench.cut(fmt::format(fmt::runtime(slot), 12))), Lines());
+  // A thicker one is in them.
+  shank(12);
+  EXPECT_EQ(told(bench.cut(fmt::format(fmt::runtime(slot), 12))), Lines{"E151 7 8.0 Z20.0"});
+}
+
+TEST(Material, FeedThatMeetsNothing) {
+  const VerifiedRun run = Bench().cut("G00 X350 Y150 Z60\nG01 X500 F1000\nG00 Z70\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  EXPECT_EQ(run.contacts[0].line, 3u);
+  EXPECT_NEAR(run.contacts[0].distance, -150, 0.1);  // The corners are rounded.
+  EXPECT_TRUE(Bench().cut("G00 X350 Y150 Z60\nG01 X390 F1000\nG00 Z70\n").contacts.empty());
+  EXPECT_TRUE(Bench().cut("G00 X250 Y150 Z60\nG01 Z38 F1000\nX450\nG00 Z70\n").contacts.empty());
+}
+
+TEST(Material, LeftOnTheTarget) {
+  Bench bench;
+  bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::flat_body(60, 60));
+  bench.scene.tools[Shop::kTool].holder.reset();
+  bench.box("", {300, 100, 0}, {400, 200, 30}, BodyRole::Target);
+  bench.scene.target_tolerance = 0.1;
+  EXPECT_EQ(told(bench.cut("G00 X200 Y150 Z50\nG01 Z30 F1000\nX500\nG00 Z50\n")), Lines());
+  EXPECT_EQ(told(bench.cut("G00 X200 Y150 Z50\nG01 Z30.09 F1000\nX500\nG00 Z50\n")), Lines());
+  EXPECT_EQ(told(bench.cut("G00 X200 Y150 Z50\nG01 Z30.2 F1000\nX500\nG00 Z50\n")), Lines{"W156 5 0.1"});
+  const VerifiedRun strip = bench.cut("G00 X200 Y120 Z50\nG01 Z30 F1000\nX500\nG00 Z50\n");
+  EXPECT_EQ(told(strip), Lines{"W156 5 9.9"});
+  // From Y180 to Y200, without what the tolerance takes.
+  EXPECT_NEAR(*strip.contacts[0].volume, 100 * 20 * 10, 800);
+}
+
+TEST(Material, WhatIsCutOffIsNotLeft) {
+  Bench bench;
+  bench.box("", {320, 120, 0}, {380, 180, 40}, BodyRole::Target);
+  bench.scene.target_tolerance = 0.1;
+  bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::flat_body(5, 60));
+  const std::string around = "G00 X315 Y115 Z50\nG01 Z-0.1 F1000\nX385\nY185\nX315\n";
+  EXPECT_EQ(told(bench.cut(around + "Y115\nG00 Z50\n")), Lines());
+  // A tab of 10 mm holds the frame: all of it stands on the part.
+  EXPECT_EQ(told(bench.cut(around + "Y135\nG00 Z50\n")).size(), 1u);
+}
+
+TEST(Material, ThreadsChangeNothing) {
+  const std::string moves =
+      "G00 X320 Y120 Z50\nG01 Z30 F1000\nX380\nY180\nX320\nY120\nG00 Z25\nX380 Y180\nZ50\nG01 Z-25\nG00 Z50\n";
+  const VerifiedRun alone = Bench().cut(moves);
+  const VerifiedRun together = Bench().cut(moves, [](const std::function<void()>& work) {
+    std::thread other(work);
+    work();
+    other.join();
+  });
+  EXPECT_EQ(told(alone), told(together));
+  EXPECT_FALSE(told(alone).empty());
+  EXPECT_TRUE(alone.material->stock.tiles_changed_since(together.material->stock).empty() ||
+              alone.material->stock.volume() == together.material->stock.volume());
+}
+
+TEST(Material, TiltedToolsCutTheVolumeOfTheirClosedForm) {
+  // A plunge through the block at 30 degrees.
+  Bench bench(MachineKind::Head);
+  bench.scene.tools[Shop::kTool].holder.reset();
+  bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::flat_body(10, 90));
+  const double sine = 0.5;
+  const double cosine = std::sqrt(0.75);
+  const auto at = [&](double along) { return fmt::format("X{:.5f} Z{:.5f}", 350 + along * sine, 20 + along * cosine); };
+  const VerifiedRun run =
+      bench.cut("G00 Y150 Z400 B30\nG00 " + at(60) + "\nG01 " + at(-45) + " F1000\nG00 " + at(60) + "\nG00 Z300\n");
+  EXPECT_EQ(told(run), Lines());
+  const double exact = pi * 100 * 40 / cosine;
+  EXPECT_NEAR(removed(run), exact, 0.003 * exact);
+}
+
+TEST(Material, WithoutAToolOrAStockNothingIsCut) {
+  EXPECT_EQ(removed(Bench().run("G00 X250 Y150 Z5\nX500\nM02\n")), 0);
+  Bench bench;
+  bench.scene.setup.clear();
+  EXPECT_FALSE(bench.cut("G00 X250 Y150 Z5\nX500\n").material.has_value());
+}
+
+TEST(Material, AResolutionThatDoesNotFitIsRefused) {
+  Bench bench;
+  bench.scene.resolution = 0.001;
+  const VerifiedRun run = bench.cut("G00 X250 Y150 Z50\nZ5\nX500\nZ50\n");
+  EXPECT_FALSE(run.material.has_value());
+  ASSERT_EQ(run.certificate->gaps.size(), 1u);
+  EXPECT_EQ(run.certificate->gaps[0].gap, Gap::ResolutionTooFine);
+  EXPECT_GT(run.certificate->gaps[0].spacing, 0.001);
+}
+
+}  // namespace
+}  // namespace isocnc::verification
