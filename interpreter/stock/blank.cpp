@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interpreter/stock/line_chord.h"
+#include "interpreter/chords/line_chord.h"
 
 namespace isocnc::stock {
 
@@ -118,7 +118,7 @@ Tile tile_of_mesh(const solids::Mesh& mesh, const DexelGrid& grid) {
 }
 
 Tile tile_of_cylinder(const solids::Cylinder& cylinder, const DexelGrid& grid) {
-  const FrustumChord chord({0, cylinder.radius, cylinder.height, cylinder.radius}, cylinder.at);
+  const chords::FrustumChord chord({0, cylinder.radius, cylinder.height, cylinder.radius}, cylinder.at);
   std::vector<std::vector<HeightInterval>> material;
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {

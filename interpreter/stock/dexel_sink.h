@@ -71,8 +71,8 @@ class DexelSink {
   float* tops() { return tops_.data(); }
 
  private:
-  static float bottom_of(double z) { return rounded_up(z); }
-  static float top_of(double z) { return rounded_down(z); }
+  static float bottom_of(double z) { return chords::rounded_up(z); }
+  static float top_of(double z) { return chords::rounded_down(z); }
 
   const DexelGrid& grid_;
   const Tile& tile_;

@@ -88,7 +88,7 @@ void SweptPiece::find_edges() {
 HeightInterval SweptPiece::chord(const Vec2& line) const {
   if (is_ball_) {
     const Vec3 center = from_.at(piece_.core.bottom);
-    return capsule_chord(center, center + travel_, piece_.rounding, line);
+    return chords::capsule_chord(center, center + travel_, piece_.rounding, line);
   }
   return piece_.rounding > 0 ? rounded_chord(line) : sharp_chord(line);
 }

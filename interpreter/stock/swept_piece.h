@@ -4,10 +4,10 @@
 #include <limits>
 #include <span>
 
+#include "interpreter/chords/line_chord.h"
 #include "interpreter/solids/obstacle.h"
 #include "interpreter/solids/revolved_body.h"
 #include "interpreter/stock/dexel_sink.h"
-#include "interpreter/stock/line_chord.h"
 
 namespace isocnc::stock {
 
@@ -50,8 +50,8 @@ class SweptPiece {
   bool moves_ = false;
   bool is_ball_ = false;
   solids::PlacedFrustum core_;
-  FrustumChord at_start_;
-  FrustumChord at_end_;
+  chords::FrustumChord at_start_;
+  chords::FrustumChord at_end_;
   solids::BoundingBox bounds_;
   std::array<SweptEdge, 2> edges_;
   int edge_count_ = 0;

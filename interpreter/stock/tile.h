@@ -6,9 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "interpreter/stock/height_interval.h"
+#include "interpreter/chords/height_interval.h"
 
 namespace isocnc::stock {
+
+using chords::HeightInterval;
 
 /// Says which sweep cut a dexel last. The module gives it no meaning.
 using CutTag = std::uint32_t;

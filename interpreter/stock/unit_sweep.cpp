@@ -62,13 +62,13 @@ Frustum slab(const Frustum& core, double bottom, double top) {
 
 SweptShape shape_of_body(const solids::RevolvedBody& body, SweepPurpose purpose) {
   const double margin = purpose == SweepPurpose::Ask ? kAskMargin : 0;
-  SweptShape shape{.columns = columns_of(body, false, margin),
-                   .turned_over = columns_of(body, true, margin),
+  SweptShape shape{.columns = chords::columns_of(body, false, margin),
+                   .turned_over = chords::columns_of(body, true, margin),
                    .body_pieces = body.pieces().size(),
                    .radius = body.maximum_radius(),
                    .bottom = body.bottom(),
                    .top = body.top()};
-  for (const BodyPiece& piece : body.pieces()) shape.pieces.push_back(shrunk(piece, margin));
+  for (const BodyPiece& piece : body.pieces()) shape.pieces.push_back(chords::shrunk(piece, margin));
   for (std::size_t i = 0; i < shape.body_pieces; ++i) {
     const Frustum core = shape.pieces[i].core;
     shape.pieces.push_back({.core = slab(core, core.bottom, core.bottom + core.bottom_radius)});

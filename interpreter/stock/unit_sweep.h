@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "interpreter/stock/revolved_column.h"
+#include "interpreter/chords/revolved_column.h"
 #include "interpreter/stock/sweep.h"
 #include "interpreter/stock/swept_piece.h"
 #include "interpreter/stock/upright_sweep.h"

@@ -8,6 +8,7 @@
 
 namespace isocnc::stock {
 
+using chords::LowerSurface;
 using geometry::Vec2;
 using geometry::Vec3;
 using Kind = LowerSurface::Kind;

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "interpreter/chords/revolved_column.h"
 #include "interpreter/geometry/vectors.h"
 #include "interpreter/stock/dexel_sink.h"
-#include "interpreter/stock/revolved_column.h"
 
 /// Sweeps of bodies with a vertical axis, in closed form. z of the motion is that of the body's origin.
 namespace isocnc::stock {
+
+using chords::RevolvedColumn;
 
 /// A straight motion in any direction. The one back sweeps the same to the last bit.
 struct UprightLine {

@@ -1,9 +1,9 @@
-#include "interpreter/stock/line_chord.h"
+#include "interpreter/chords/line_chord.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace isocnc::stock {
+namespace isocnc::chords {
 
 using geometry::Vec2;
 using geometry::Vec3;
@@ -100,4 +100,4 @@ HeightInterval capsule_chord(const Vec3& from, const Vec3& to, double radius, co
   return {from.z() + slope * lowest - reach_at(lowest), from.z() + slope * highest + reach_at(highest)};
 }
 
-}  // namespace isocnc::stock
+}  // namespace isocnc::chords

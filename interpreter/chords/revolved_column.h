@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "interpreter/chords/height_interval.h"
 #include "interpreter/solids/revolved_body.h"
-#include "interpreter/stock/height_interval.h"
 
-namespace isocnc::stock {
+namespace isocnc::chords {
 
 /// A piece of the lower surface of a body of revolution with a vertical axis: its height above the origin of the axis,
 /// which never falls with the distance r from the axis, mm. Within `start` it is that at `start`; at more than `end`
@@ -58,4 +58,4 @@ std::vector<RevolvedColumn> columns_of(const solids::RevolvedBody& body, bool up
 /// A piece whose radii are smaller by this, mm, but not negative.
 solids::BodyPiece shrunk(const solids::BodyPiece& piece, double by);
 
-}  // namespace isocnc::stock
+}  // namespace isocnc::chords

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "interpreter/chords/height_interval.h"
 #include "interpreter/geometry/vectors.h"
 #include "interpreter/solids/frustum.h"
-#include "interpreter/stock/height_interval.h"
 
 /// Where a vertical line meets convex bodies in any direction, in closed form. Lines are given by their x and y.
-namespace isocnc::stock {
+namespace isocnc::chords {
 
 /// Of a frustum, with all that does not depend on the line computed once.
 class FrustumChord {
@@ -28,4 +28,4 @@ class FrustumChord {
 HeightInterval capsule_chord(const geometry::Vec3& from, const geometry::Vec3& to, double radius,
                              const geometry::Vec2& line);
 
-}  // namespace isocnc::stock
+}  // namespace isocnc::chords

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace isocnc::stock {
+namespace isocnc::chords {
 
 /// A piece of a vertical line, mm in the workpiece frame. Empty unless `bottom` is below `top`.
 struct HeightInterval {
@@ -38,4 +38,4 @@ inline float rounded_up(double value) {
 /// The nearest float that is not above `value`.
 inline float rounded_down(double value) { return -rounded_up(-value); }
 
-}  // namespace isocnc::stock
+}  // namespace isocnc::chords

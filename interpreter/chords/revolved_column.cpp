@@ -1,10 +1,10 @@
-#include "interpreter/stock/revolved_column.h"
+#include "interpreter/chords/revolved_column.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace isocnc::stock {
+namespace isocnc::chords {
 
 using solids::BodyPiece;
 using solids::Frustum;
@@ -195,4 +195,4 @@ std::vector<RevolvedColumn> columns_of(const solids::RevolvedBody& body, bool up
   return columns;
 }
 
-}  // namespace isocnc::stock
+}  // namespace isocnc::chords
