@@ -6,6 +6,9 @@
 
 namespace isocnc::stock {
 
+/// The most columns, and the most rows, of a grid.
+inline constexpr int kMaxDexelsAcross = 1 << 17;
+
 /// A rectangle of dexels, workpiece frame, mm.
 struct DexelGrid {
   geometry::Vec2 first = geometry::Vec2::Zero();    ///< Place of the dexel in column 0 of row 0.
@@ -37,8 +40,11 @@ struct DexelGrid {
   }
 };
 
+/// The grid of `columns` x `rows` equal cells over a rectangle, with a dexel in the middle of each.
+DexelGrid grid_of(const solids::BoundingBox& bounds, int columns, int rows);
+
 /// The grid over a rectangle: dexels in the middle of cells that divide both sides evenly, `spacing` wide or less. So
-/// the volume of a box is exact. At most 2^17 columns and rows, whatever the spacing.
+/// the volume of a box is exact. At most kMaxDexelsAcross columns and rows, whatever the spacing.
 DexelGrid grid_over(const solids::BoundingBox& bounds, double spacing);
 
 }  // namespace isocnc::stock

@@ -31,14 +31,7 @@ void for_each_tile(const DexelGrid& grid, Use&& use) {
 
 }  // namespace
 
-Stock::Stock(const Blank& blank, double spacing) : tree_(std::make_shared<Tree>()) {
-  tree_->bounds = bounds_of(blank);
-  tree_->grid = grid_over(tree_->bounds, spacing);
-  const auto nodes_across = [](int tiles) { return (tiles + kNodeSize - 1) / kNodeSize; };
-  tree_->node_columns = nodes_across(grid().tile_columns());
-  tree_->nodes.resize(static_cast<std::size_t>(tree_->node_columns) *
-                      static_cast<std::size_t>(nodes_across(grid().tile_rows())));
-  for (auto& node : tree_->nodes) node = std::make_shared<Node>();
+Stock::Stock(const Blank& blank, double spacing) : Stock(bounds_of(blank), grid_over(blank, spacing)) {
   std::map<std::array<int, 2>, TilePointer> uniform;  // By columns and rows.
   for_each_tile(grid(), [&](const TileIndex& index) {
     const DexelGrid part = grid().tile(index.column, index.row);
@@ -53,6 +46,22 @@ Stock::Stock(const Blank& blank, double spacing) : tree_(std::make_shared<Tree>(
     if (shared && shared->floor() == tile->floor() && shared->ceiling() == tile->ceiling()) tile = shared;
     shared = tile;
   });
+}
+
+Stock::Stock(const solids::BoundingBox& bounds, int columns, int rows, std::vector<std::shared_ptr<Tile>> tiles)
+    : Stock(bounds, grid_of(bounds, columns, rows)) {
+  std::size_t next = 0;
+  for_each_tile(grid(), [&](const TileIndex& index) { tile_to_cut(index) = std::move(tiles[next++]); });
+}
+
+Stock::Stock(const solids::BoundingBox& bounds, const DexelGrid& over) : tree_(std::make_shared<Tree>()) {
+  tree_->bounds = bounds;
+  tree_->grid = over;
+  const auto nodes_across = [](int tiles) { return (tiles + kNodeSize - 1) / kNodeSize; };
+  tree_->node_columns = nodes_across(grid().tile_columns());
+  tree_->nodes.resize(static_cast<std::size_t>(tree_->node_columns) *
+                      static_cast<std::size_t>(nodes_across(grid().tile_rows())));
+  for (auto& node : tree_->nodes) node = std::make_shared<Node>();
 }
 
 const Stock::TilePointer& Stock::tile_at(const TileIndex& index) const {
@@ -138,6 +147,17 @@ std::vector<TileIndex> Stock::tiles_changed_since(const Stock& shown) const {
     if (!is_same_grid || tile_at(index) != shown.tile_at(index)) changed.push_back(index);
   });
   return changed;
+}
+
+void for_each_change(const Stock& old, const Stock& now, const std::function<void(int row, int column)>& use) {
+  const bool is_same_grid = now.grid().columns == old.grid().columns && now.grid().rows == old.grid().rows;
+  for (const TileIndex& index : now.tiles_changed_since(old)) {
+    const Tile& tile = now.tile(index);
+    for (int row = 0; row < tile.rows(); ++row)
+      for (int column = 0; column < tile.columns(); ++column)
+        if (!is_same_grid || !tile.has_same_material(old.tile(index), row, column))
+          use(index.row * Tile::kSize + row, index.column * Tile::kSize + column);
+  }
 }
 
 double required_memory(const Blank& blank, double spacing) {

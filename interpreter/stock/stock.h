@@ -33,6 +33,8 @@ class Stock {
   /// Dexels at `spacing` or less (grid_over). See required_memory() first: nothing here refuses a fine spacing, except
   /// that there are at most 2^17 columns and rows.
   Stock(const Blank& blank, double spacing);
+  /// A stock of given tiles, none of them null: row by row, and as many as grid_of(bounds, columns, rows) has.
+  Stock(const solids::BoundingBox& bounds, int columns, int rows, std::vector<std::shared_ptr<Tile>> tiles);
 
   /// Applies the sweeps in their order, and returns the outcome of each. Stock and outcomes are the same to the last
   /// bit for any number of threads, and for any division of the sweeps into calls. Without `workers`, works on the
@@ -74,6 +76,7 @@ class Stock {
     std::vector<std::shared_ptr<Node>> nodes;
   };
 
+  Stock(const solids::BoundingBox& bounds, const DexelGrid& over);
   const TilePointer& tile_at(const TileIndex& index) const;
   TilePointer& tile_to_cut(const TileIndex& index);
   void own(std::span<const TileIndex> tiles);
@@ -81,6 +84,10 @@ class Stock {
 
   std::shared_ptr<Tree> tree_;
 };
+
+/// Calls `use` with each dexel whose material differs between two copies of the same blank, in order of the tiles.
+/// Takes time for the tiles that have changed alone.
+void for_each_change(const Stock& old, const Stock& now, const std::function<void(int row, int column)>& use);
 
 /// Bytes that a stock takes when every dexel has been cut and has one interval; further intervals, as undercuts leave
 /// them, take 12 each. Infinite if the spacing is not positive.

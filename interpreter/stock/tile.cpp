@@ -25,28 +25,31 @@ void note_deepest(DexelCount& count, int row, int column, float depth, float bot
 Tile::Tile(int columns, int rows, float bottom, float top)
     : columns_(columns), rows_(rows), bottom_(bottom), floor_(bottom), ceiling_(std::max(bottom, top)) {}
 
-Tile::Tile(int columns, int rows, const std::vector<std::vector<HeightInterval>>& material)
-    : Tile(columns, rows, 0, 0) {
-  const auto first = std::find_if(material.begin(), material.end(), [](const auto& dexel) { return !dexel.empty(); });
-  if (first == material.end()) return;
-  bottom_ = static_cast<float>(first->back().bottom);
+Tile::Tile(int columns, int rows, std::span<const DexelInterval> material) : Tile(columns, rows, 0, 0) {
+  if (material.empty()) return;
+  const DexelInterval& first = material.front();
+  const auto dexels = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  const bool are_all_same =
+      material.size() == dexels && std::all_of(material.begin(), material.end(), [&](const DexelInterval& each) {
+        return each.bottom == first.bottom && each.top == first.top;
+      });
+  if (are_all_same) {
+    *this = Tile(columns, rows, first.bottom, first.top);
+    return;
+  }
+  bottom_ = first.bottom;
   tops_.assign(kDexels, bottom_);
-  for (int row = 0; row < rows_; ++row)
-    for (int column = 0; column < columns_; ++column) {
-      const auto& dexel = material[static_cast<std::size_t>(row * columns_ + column)];
-      if (dexel.empty()) continue;
-      const std::size_t at = index(row, column);
-      set_bottom(at, static_cast<float>(dexel.back().bottom));
-      tops_[at] = static_cast<float>(dexel.back().top);
-      for (auto lower = dexel.rbegin() + 1; lower != dexel.rend(); ++lower)
-        insert_lower(row, {column, static_cast<float>(lower->bottom), static_cast<float>(lower->top)});
+  for (const DexelInterval& interval : material) {
+    const std::size_t at = index(interval.row, interval.column);
+    if (tops_[at] > bottom_at(at)) {
+      if (lower_.empty()) lower_.resize(kSize);
+      lower_[static_cast<std::size_t>(interval.row)].push_back({interval.column, bottom_at(at), tops_[at]});
     }
+    set_bottom(at, interval.bottom);
+    tops_[at] = interval.top;
+  }
+  for (LowerIntervals& row : lower_) std::sort(row.begin(), row.end(), is_in_order);
   tighten();
-  if (!bottoms_.empty() || !lower_.empty()) return;
-  for (int row = 0; row < rows_; ++row)
-    for (int column = 0; column < columns_; ++column)
-      if (tops_[index(row, column)] != ceiling_) return;
-  tops_ = {};
 }
 
 std::size_t Tile::memory() const {
@@ -82,6 +85,21 @@ std::vector<HeightInterval> Tile::intervals(int row, int column) const {
       if (interval.column == column) all.insert(all.begin(), {interval.bottom, interval.top});
   if (tops_[at] > bottom_at(at)) all.push_back({bottom_at(at), tops_[at]});
   return all;
+}
+
+bool Tile::has_same_material(const Tile& other, int row, int column) const {
+  const std::size_t at = index(row, column);
+  if (has_lower(row) || other.has_lower(row)) {
+    const std::vector<HeightInterval> here = intervals(row, column);
+    const std::vector<HeightInterval> there = other.intervals(row, column);
+    return std::equal(here.begin(), here.end(), there.begin(), there.end(),
+                      [](const auto& one, const auto& two) { return one.bottom == two.bottom && one.top == two.top; });
+  }
+  const float bottom = is_uniform() ? floor_ : bottom_at(at);
+  const float top = is_uniform() ? ceiling_ : tops_[at];
+  const float other_bottom = other.is_uniform() ? other.floor_ : other.bottom_at(at);
+  const float other_top = other.is_uniform() ? other.ceiling_ : other.tops_[at];
+  return (bottom == other_bottom && top == other_top) || (!(bottom < top) && !(other_bottom < other_top));
 }
 
 std::optional<float> Tile::top(int row, int column) const {
@@ -128,11 +146,7 @@ void Tile::set_bottom(std::size_t index, float bottom) {
 void Tile::insert_lower(int row, const LowerInterval& interval) {
   if (lower_.empty()) lower_.resize(kSize);
   LowerIntervals& all = lower_[static_cast<std::size_t>(row)];
-  all.insert(std::upper_bound(all.begin(), all.end(), interval,
-                              [](const LowerInterval& left, const LowerInterval& right) {
-                                return left.column != right.column ? left.column < right.column : left.top > right.top;
-                              }),
-             interval);
+  all.insert(std::upper_bound(all.begin(), all.end(), interval, is_in_order), interval);
 }
 
 /// One interval in the dexel; the frequent cases first.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "interpreter/chords/height_interval.h"
@@ -24,6 +25,14 @@ struct DexelCount {
   float bottom = 0;   ///< Lowest end of what is removed or met in that dexel, mm.
 };
 
+/// An interval of a dexel of a tile, mm.
+struct DexelInterval {
+  int row = 0;
+  int column = 0;
+  float bottom = 0;
+  float top = 0;
+};
+
 /// A square of 128 x 128 vertical dexels: lines along which the stock is exact. A dexel holds its material as
 /// intervals of z, mm, from the highest one down. Heights are floats, so below 512 mm the step is 2^-15 mm.
 ///
@@ -35,9 +44,9 @@ class Tile {
 
   /// A tile whose dexels all have one interval. A tile at the border of the stock has fewer columns or rows.
   Tile(int columns, int rows, float bottom, float top);
-  /// A tile with any material: `material` holds the intervals of each dexel, row by row, columns * rows of them, each
-  /// from the lowest interval up.
-  Tile(int columns, int rows, const std::vector<std::vector<HeightInterval>>& material);
+  /// A tile with any material: intervals by row, then by column, then from the lowest one up. None is empty, and those
+  /// of a dexel do not overlap.
+  Tile(int columns, int rows, std::span<const DexelInterval> material);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -51,6 +60,11 @@ class Tile {
 
   /// The intervals of a dexel, from the lowest one up.
   std::vector<HeightInterval> intervals(int row, int column) const;
+  /// Calls `use(column, bottom, top)` with each interval of a row: by column, then from the lowest one up.
+  template <class Use>
+  void for_each_interval(int row, Use&& use) const;
+  /// Whether the dexel at this place has the same intervals in both tiles.
+  bool has_same_material(const Tile& other, int row, int column) const;
   /// The upper end of a dexel's material, mm; no value if it has none.
   std::optional<float> top(int row, int column) const;
   /// Who cut the dexel last; no value if nobody did.
@@ -91,6 +105,9 @@ class Tile {
     float top;
   };
   using LowerIntervals = std::vector<LowerInterval>;  ///< By column, then from the highest one down.
+  static bool is_in_order(const LowerInterval& left, const LowerInterval& right) {
+    return left.column != right.column ? left.column < right.column : left.top > right.top;
+  }
 
   static std::size_t index(int row, int column) {
     return static_cast<std::size_t>(row) * kSize + static_cast<std::size_t>(column);
@@ -114,5 +131,24 @@ class Tile {
   std::vector<CutTag> tags_;           ///< Once there is a cut.
   std::vector<LowerIntervals> lower_;  ///< Further intervals of each row, once there are any.
 };
+
+template <class Use>
+void Tile::for_each_interval(int row, Use&& use) const {
+  if (is_uniform()) {
+    for (int column = 0; column < columns_ && !is_empty(); ++column) use(column, floor_, ceiling_);
+    return;
+  }
+  const std::span<const LowerInterval> lower =
+      has_lower(row) ? lower_[static_cast<std::size_t>(row)] : std::span<const LowerInterval>();
+  std::size_t first = 0;
+  for (int column = 0; column < columns_; ++column) {
+    std::size_t last = first;
+    while (last < lower.size() && lower[last].column == column) ++last;
+    for (std::size_t i = last; i > first; --i) use(column, lower[i - 1].bottom, lower[i - 1].top);
+    first = last;
+    const std::size_t at = index(row, column);
+    if (tops_[at] > bottom_at(at)) use(column, bottom_at(at), tops_[at]);
+  }
+}
 
 }  // namespace isocnc::stock

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -8,6 +10,7 @@
 
 #include "interpreter/solids/tool_shapes.h"
 #include "interpreter/stock/stock.h"
+#include "tests/support/random.h"
 
 /// Blanks, cutters and paths for the tests of removed material.
 namespace isocnc::stock::cuts {
@@ -51,7 +54,57 @@ inline double removed(Stock stock, const std::vector<Sweep>& sweeps) {
   return before - stock.volume();
 }
 
+/// The intervals of the dexel in a column and a row of the whole grid.
+inline std::vector<HeightInterval> intervals(const Stock& stock, int column, int row) {
+  return stock.tile({column / Tile::kSize, row / Tile::kSize}).intervals(row % Tile::kSize, column % Tile::kSize);
+}
+
+/// Both stocks have the same material, to the last bit.
+inline void expect_same_material(const Stock& one, const Stock& other) {
+  ASSERT_EQ(one.grid().columns, other.grid().columns);
+  ASSERT_EQ(one.grid().rows, other.grid().rows);
+  for (int row = 0; row < one.grid().rows; ++row)
+    for (int column = 0; column < one.grid().columns; ++column) {
+      const std::vector<HeightInterval> of_one = intervals(one, column, row);
+      const std::vector<HeightInterval> of_other = intervals(other, column, row);
+      ASSERT_EQ(of_one.size(), of_other.size()) << column << ' ' << row;
+      for (std::size_t i = 0; i < of_one.size(); ++i) {
+        ASSERT_EQ(of_one[i].bottom, of_other[i].bottom) << column << ' ' << row;
+        ASSERT_EQ(of_one[i].top, of_other[i].top) << column << ' ' << row;
+      }
+    }
+}
+
 /// A vector tilted from Z towards X.
 inline Vec3 tilted(double degrees) { return {std::sin(degrees * pi / 180), 0, std::cos(degrees * pi / 180)}; }
+
+/// A program of all kinds of sweeps over a plate of 300 x 200 mm.
+class SomeSweeps {
+ public:
+  std::vector<Sweep> make(std::uint64_t seed, int count) const {
+    support::Random random(seed);
+    std::vector<Sweep> all;
+    Vec3 at(150, 100, 0);
+    for (int i = 0; i < count; ++i) {
+      const RevolvedBody& tool = tools_[random.below(tools_.size())];
+      const Vec3 to = Vec3(random.real(-5, 305), random.real(-5, 205), random.real(-20, 3));
+      const Vec3 axis = random.one_in(3) ? tilted(random.real(-60, 60)) : Vec3(0, 0, 1);
+      const auto tag = static_cast<CutTag>(i);
+      Sweep sweep = line(tool, at, to, axis, tag);
+      if (random.one_in(4)) sweep = arc(tool, to, to, to + Vec3(random.real(1, 30), 0, 0), 360, {0, 0, 1}, tag);
+      if (random.one_in(20)) sweep = turn(tool, {to, axis}, {to, tilted(random.real(-60, 60))}, tag);
+      if (random.one_in(4)) sweep = asking(sweep);
+      all.push_back(sweep);
+      at = to;
+    }
+    return all;
+  }
+
+ private:
+  std::vector<RevolvedBody> tools_ = {flat(6, 50), ball(4, 50), body(solids::bull_body(8, 2, 50)),
+                                      body(solids::drill_body(5, 118, 50))};
+};
+
+inline const solids::Cuboid kPlate = box({0, 0, -18}, {300, 200, 0});
 
 }  // namespace isocnc::stock::cuts

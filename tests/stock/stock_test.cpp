@@ -20,21 +20,13 @@ Workers threads(int count) {
   };
 }
 
-/// Both stocks are the same to the last bit.
+/// Both stocks are the same to the last bit, with the record of their cuts.
 void expect_same(const Stock& one, const Stock& other) {
-  ASSERT_EQ(one.grid().columns, other.grid().columns);
-  ASSERT_EQ(one.grid().rows, other.grid().rows);
+  expect_same_material(one, other);
   for (int row = 0; row < one.grid().rows; ++row)
     for (int column = 0; column < one.grid().columns; ++column) {
       const double x = one.grid().x(column);
       const double y = one.grid().y(row);
-      const std::vector<HeightInterval> of_one = one.intervals_at(x, y);
-      const std::vector<HeightInterval> of_other = other.intervals_at(x, y);
-      ASSERT_EQ(of_one.size(), of_other.size()) << x << ' ' << y;
-      for (std::size_t i = 0; i < of_one.size(); ++i) {
-        ASSERT_EQ(of_one[i].bottom, of_other[i].bottom) << x << ' ' << y;
-        ASSERT_EQ(of_one[i].top, of_other[i].top) << x << ' ' << y;
-      }
       ASSERT_EQ(one.cut_by(x, y), other.cut_by(x, y)) << x << ' ' << y;
     }
 }
@@ -47,35 +39,6 @@ void expect_same(const std::vector<SweepOutcome>& one, const std::vector<SweepOu
     EXPECT_EQ(one[i].point, other[i].point) << i;
   }
 }
-
-/// A program of all kinds of sweeps over a plate of 300 x 200 mm.
-class SomeSweeps {
- public:
-  std::vector<Sweep> make(std::uint64_t seed, int count) const {
-    Random random(seed);
-    std::vector<Sweep> all;
-    Vec3 at(150, 100, 0);
-    for (int i = 0; i < count; ++i) {
-      const RevolvedBody& tool = tools_[random.below(tools_.size())];
-      const Vec3 to = Vec3(random.real(-5, 305), random.real(-5, 205), random.real(-20, 3));
-      const Vec3 axis = random.one_in(3) ? tilted(random.real(-60, 60)) : Vec3(0, 0, 1);
-      const auto tag = static_cast<CutTag>(i);
-      Sweep sweep = line(tool, at, to, axis, tag);
-      if (random.one_in(4)) sweep = arc(tool, to, to, to + Vec3(random.real(1, 30), 0, 0), 360, {0, 0, 1}, tag);
-      if (random.one_in(20)) sweep = turn(tool, {to, axis}, {to, tilted(random.real(-60, 60))}, tag);
-      if (random.one_in(4)) sweep = asking(sweep);
-      all.push_back(sweep);
-      at = to;
-    }
-    return all;
-  }
-
- private:
-  std::vector<RevolvedBody> tools_ = {flat(6, 50), ball(4, 50), body(solids::bull_body(8, 2, 50)),
-                                      body(solids::drill_body(5, 118, 50))};
-};
-
-const solids::Cuboid kPlate = box({0, 0, -18}, {300, 200, 0});
 
 TEST(Stock, IsTheSameForAnyNumberOfThreads) {
   const SomeSweeps source;
@@ -134,6 +97,35 @@ TEST(Stock, CopiesAreIndependentAndShareWhatNeitherHasCut) {
   // One tile, with its node.
   EXPECT_LE(stock.own_memory(), 140000U);
   EXPECT_GE(stock.own_memory(), 128U * 1024);
+}
+
+TEST(Stock, VisitsTheDexelsThatDiffer) {
+  const RevolvedBody tool = flat(5);
+  const RevolvedBody saw = body(solids::disc_body(15, 3));
+  Stock now(box({0, 0, -18}, {640, 640, 0}), 0.5);
+  apply(now, line(tool, {32, 32, -5}, {600, 32, -5}));
+  const Stock old = now;
+  apply(now, line(tool, {100, 30, -5}, {100, 70, -5}));
+  apply(now, line(saw, {300, 300, -10}, {310, 300, -10}));
+  apply(now, line(tool, {500, 500, -30}, {500, 500, -30}));
+  std::vector<std::array<int, 2>> expected;
+  for (int row = 0; row < now.grid().rows; ++row)
+    for (int column = 0; column < now.grid().columns; ++column) {
+      const auto before = intervals(old, column, row);
+      const auto after = intervals(now, column, row);
+      const auto is_same = [](const HeightInterval& one, const HeightInterval& other) {
+        return one.bottom == other.bottom && one.top == other.top;
+      };
+      if (!std::equal(before.begin(), before.end(), after.begin(), after.end(), is_same))
+        expected.push_back({row, column});
+    }
+  ASSERT_GT(expected.size(), 1000U);
+  for (const auto& [one, other] : {std::pair(&old, &std::as_const(now)), std::pair(&std::as_const(now), &old)}) {
+    std::vector<std::array<int, 2>> found;
+    for_each_change(*one, *other, [&](int row, int column) { found.push_back({row, column}); });
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
 }
 
 TEST(Stock, AirCutsShareEverything) {
