@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "cuts.h"
+#include "interpreter/stock/pieces.h"
+
+/// The material divided into what hangs together.
+namespace isocnc::stock::cuts {
+namespace {
+
+/// An interval: row, column, number within its dexel.
+using Place = std::tuple<int, int, int>;
+
+/// The pieces by a plain flood.
+std::set<std::set<Place>> flooded(const Stock& stock) {
+  std::map<Place, HeightInterval> waiting;
+  for (int row = 0; row < stock.grid().rows; ++row)
+    for (int column = 0; column < stock.grid().columns; ++column) {
+      int number = 0;
+      for (const HeightInterval& z : intervals(stock, column, row)) waiting[{row, column, number++}] = z;
+    }
+  std::set<std::set<Place>> pieces;
+  while (!waiting.empty()) {
+    std::set<Place> piece;
+    std::vector<std::pair<Place, HeightInterval>> open = {*waiting.begin()};
+    waiting.erase(waiting.begin());
+    while (!open.empty()) {
+      const auto [place, z] = open.back();
+      open.pop_back();
+      piece.insert(place);
+      const auto [row, column, number] = place;
+      for (const auto& [down, right] : {std::pair(0, 1), {0, -1}, {1, 0}, {-1, 0}})
+        for (auto next = waiting.lower_bound({row + down, column + right, 0});
+             next != waiting.end() && std::get<0>(next->first) == row + down &&
+             std::get<1>(next->first) == column + right;) {
+          if (next->second.bottom < z.top && next->second.top > z.bottom) {
+            open.push_back(*next);
+            next = waiting.erase(next);
+          } else {
+            ++next;
+          }
+        }
+    }
+    pieces.insert(piece);
+  }
+  return pieces;
+}
+
+std::set<Place> places_of(const StockPiece& piece, const Stock& stock) {
+  std::set<Place> places;
+  for_each_interval(piece, [&](int column, int row, const HeightInterval& z) {
+    int number = 0;
+    for (const HeightInterval& each : intervals(stock, column, row)) {
+      if (each.bottom == z.bottom) places.insert({row, column, number});
+      ++number;
+    }
+  });
+  return places;
+}
+
+void expect_flooded(const Stock& stock) {
+  const std::vector<StockPiece> pieces = pieces_of(stock);
+  std::set<std::set<Place>> found;
+  double volume = 0;
+  for (const StockPiece& piece : pieces) {
+    found.insert(places_of(piece, stock));
+    volume += piece.volume;
+  }
+  EXPECT_EQ(found, flooded(stock));
+  EXPECT_NEAR(volume, stock.volume(), 1e-9 * volume);
+}
+
+TEST(Pieces, OfAWholeBlankAreOne) {
+  const std::vector<StockPiece> pieces = pieces_of(Stock(kPlate, 0.5));
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_NEAR(pieces[0].volume, 300 * 200 * 18, 1e-6);
+  EXPECT_EQ(pieces[0].dexels, 600U * 400U);
+  EXPECT_NEAR((pieces[0].bounds.max() - Vec3(300, 200, 0)).norm(), 0, 1e-9);
+  EXPECT_NEAR((pieces[0].bounds.min() - Vec3(0, 0, -18)).norm(), 0, 1e-9);
+  EXPECT_FALSE(pieces[0].last_cut);
+}
+
+/// A frame around a part of 100 x 80 mm, that the fourth cut sets free.
+TEST(Pieces, AppearWithTheCutThatFreesThem) {
+  Stock stock(kPlate, 0.5);
+  const RevolvedBody tool = flat(5);
+  const std::vector<Vec3> corners = {{95, 45, -19}, {205, 45, -19}, {205, 135, -19}, {95, 135, -19}, {95, 45, -19}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(pieces_of(stock).size(), 1U) << i;
+    apply(stock, line(tool, corners[i], corners[i + 1], {0, 0, 1}, static_cast<CutTag>(10 + i)));
+  }
+  apply(stock, line(tool, {20, 20, -2}, {20, 20, -2}, {0, 0, 1}, 99));
+  const std::vector<StockPiece> pieces = pieces_of(stock);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[0].last_cut, 99U) << "the frame";
+  const StockPiece& part = pieces[1];
+  EXPECT_NEAR(part.volume, 100 * 80 * 18, 1e-3);
+  EXPECT_EQ(part.dexels, 200U * 160U);
+  EXPECT_EQ(part.last_cut, 13U);
+  EXPECT_NEAR((part.bounds.min() - Vec3(100, 50, -18)).norm(), 0, 1e-6);
+  EXPECT_NEAR((part.bounds.max() - Vec3(200, 130, 0)).norm(), 0, 1e-6);
+}
+
+TEST(Pieces, MayLieAboveEachOther) {
+  Stock stock(box({0, 0, -20}, {60, 40, 0}), 0.5);
+  const RevolvedBody saw = body(solids::disc_body(100, 4));
+  apply(stock, line(saw, {30, 20, -12}, {30, 20, -12}));
+  const std::vector<StockPiece> pieces = pieces_of(stock);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[0].dexels, pieces[1].dexels);
+  EXPECT_NEAR(pieces[0].volume, 60 * 40 * 8.0, 0.1) << "the lower one comes first: as large as the other";
+  EXPECT_NEAR(pieces[1].volume, 60 * 40 * 8.0, 0.1);
+}
+
+TEST(Pieces, ThatTouchAtCornersOrEndsAreApart) {
+  Stock stock(box({0, 0, 0}, {4, 4, 4}), 1);
+  const RevolvedBody square = flat(0.6, 10);
+  for (int row = 0; row < 4; ++row)
+    for (int column = row % 2; column < 4; column += 2)
+      apply(stock, line(square, {column + 0.5, row + 0.5, -1}, {column + 0.5, row + 0.5, -1}));
+  EXPECT_EQ(pieces_of(stock).size(), 8U);
+  expect_flooded(stock);
+}
+
+TEST(Pieces, AreThoseOfAFlood) {
+  const SomeSweeps source;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    Stock stock(kPlate, 1);  // 3 x 2 tiles.
+    stock.apply(source.make(seed, 120));
+    const RevolvedBody saw = flat(2, 40);
+    for (int i = 0; i < 6; ++i) {
+      apply(stock, line(saw, {i * 50.0 + 20, -10, -20}, {i * 50.0 + 20, 210, -20}));
+      apply(stock, line(saw, {-10, i * 35.0 + 10, -20}, {310, i * 35.0 + 10, -20}));
+    }
+    ASSERT_GT(pieces_of(stock).size(), 30U);
+    expect_flooded(stock);
+  }
+}
+
+TEST(Pieces, OfNothingAreNone) {
+  Stock stock(box({0, 0, 0}, {4, 4, 4}), 1);
+  const RevolvedBody tool = flat(20, 10);
+  apply(stock, line(tool, {2, 2, -1}, {2, 2, -1}));
+  EXPECT_TRUE(pieces_of(stock).empty());
+}
+
+}  // namespace
+}  // namespace isocnc::stock::cuts
