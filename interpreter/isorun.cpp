@@ -130,8 +130,8 @@ constexpr Text kNoPage{
     "this isorun draws no {}: it was built without npm, which --plot FILE.html takes; --plot FILE.svg works",
     "questo isorun non disegna {}: è stato compilato senza npm, che serve per --plot FILE.html; --plot FILE.svg "
     "funziona"};
-constexpr Text kWrongStock{"--stock-out writes a file whose name ends in .stl, unlike {}",
-                           "--stock-out scrive un file il cui nome finisce in .stl, non come {}"};
+constexpr Text kWrongStock{"--stock-out writes a file whose name ends in .stl or .stock, unlike {}",
+                           "--stock-out scrive un file il cui nome finisce in .stl o .stock, non come {}"};
 constexpr Text kWrongResolution{"--resolution takes a plain number of mm above 0, such as 0.5, not {}",
                                 "--resolution vuole un numero semplice in mm maggiore di 0, come 0.5, non {}"};
 constexpr Text kTooFine{
@@ -181,7 +181,7 @@ std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   const auto format = plot::plot_format(options.plot);
   if (!options.plot.empty() && !format) return refuse(kWrongPlot, options.plot, options);
   if (format == plot::PlotFormat::Html && plot::kPageTemplate.empty()) return refuse(kNoPage, options.plot, options);
-  if (!options.stock_out.empty() && !options.stock_out.ends_with(".stl"))
+  if (!options.stock_out.empty() && !options.stock_out.ends_with(".stl") && !options.stock_out.ends_with(".stock"))
     return refuse(kWrongStock, options.stock_out, options);
   if (options.resolution) {
     outputs.material.resolution = read_decimal(*options.resolution);
@@ -550,9 +550,9 @@ ExitStatus run_main(int argc, char** argv) {
                                                            {"Print what the machine shows as isolint prints it",
                                                             "Stampa ciò che la macchina mostra come isolint"})
                                                  .without_exclusions();
-  const command_line::ProgramOption stock_out =
-      program.add_option("--stock-out", options.stock_out, command_line::kFileValue,
-                         {"What is left of the blank, as FILE.stl", "Ciò che resta del grezzo, come FILE.stl"});
+  const command_line::ProgramOption stock_out = program.add_option(
+      "--stock-out", options.stock_out, command_line::kFileValue,
+      {"What is left of the blank, as FILE.stl or .stock", "Ciò che resta del grezzo, come FILE.stl o .stock"});
   program.add_option("--resolution", options.resolution, {"MM", "MM"},
                      {"How fine the blank is cut; else as the setup says",
                       "Quanto è fine il taglio del grezzo; altrimenti\ncome dice l'attrezzaggio"});

@@ -10,6 +10,7 @@
 
 #include "analyzer/check/side_by_side.h"
 #include "interpreter/solids/stl.h"
+#include "interpreter/stock/stock_file.h"
 #include "interpreter/stock/surface.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/system_texts.h"
@@ -142,6 +143,13 @@ std::string RunReport::summary(const verification::VerifiedRun& verified, const 
   return json + "}\n";
 }
 
+/// What remains of the blank, in the format that the name of the file asks for.
+std::string RunReport::stock_bytes(const verification::VerifiedRun& verified) const {
+  if (!verified.material) return solids::write_stl({});
+  const stock::Stock& left = verified.material->stock;
+  return outputs_.stock_out.ends_with(".stock") ? stock::write_stock(left) : solids::write_stl(stock::surface_of(left));
+}
+
 void RunReport::finish(const running::RunResult& result, const verification::VerifiedRun& verified,
                        const std::string& shown_findings) {
   if (samples_ != nullptr) {
@@ -155,8 +163,7 @@ void RunReport::finish(const running::RunResult& result, const verification::Ver
   if (trace_file_) close(*trace_file_, outputs_.trace);
   if (samples_file_) close(*samples_file_, outputs_.samples);
   if (stock_file_) {
-    stock_file_->write(solids::write_stl(verified.material ? stock::surface_of(verified.material->stock)
-                                                           : std::vector<solids::Triangle>()));
+    stock_file_->write(stock_bytes(verified));
     close(*stock_file_, outputs_.stock_out);
   }
   if (plot_) {

@@ -24,7 +24,7 @@ struct RunOutputs {
   std::string plot;
   plot::PlotSubject subject;  ///< Subject of the plot, and what surrounds the program.
   bool json = false;          ///< Whether the summary is JSON.
-  std::string stock_out;      ///< What remains of the blank, as a mesh.
+  std::string stock_out;      ///< What remains of the blank: `.stl` or `.stock`.
   verification::MaterialOptions material;
   std::string program_name;
   dialect::Language language = dialect::Language::English;
@@ -59,6 +59,7 @@ class RunReport {
   void take(const motion::Stretch& stretch, const simulation::TimedEvent& timed);
   void sort_warnings();
   std::string summary(const verification::VerifiedRun& verified, const std::string& shown_findings) const;
+  std::string stock_bytes(const verification::VerifiedRun& verified) const;
   void sample_rest(double until);
   void write(const motion::Sample& sample);
 

@@ -62,6 +62,7 @@ struct Removed {
 /// What the motions of a line have removed.
 struct RemovedByLine {
   std::size_t line = 0;  ///< From 0.
+  double end_time = 0;   ///< When it was done, seconds.
   Removed removed;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "interpreter/removal/left_material.h"
+#include "interpreter/removal/loose_pieces.h"
 #include "interpreter/simulation/spindle_turn.h"
 
 namespace isocnc::removal {
@@ -39,6 +40,7 @@ MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine
 void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& tool) {
   cut_waiting();
   close_all();
+  if (!by_line_.empty()) look_for_loose_pieces();
   code_ = code;
   tool_.reset();
   // A wall of a cut is known to within a spacing.
@@ -221,6 +223,7 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
   const motion::Stretch& motion = stretch.stretch;
   tool.seconds += motion.time_at(use.to) - motion.time_at(use.from);
   if (by_line_.empty() || by_line_.back().line != stretch.line) by_line_.push_back({.line = stretch.line});
+  by_line_.back().end_time = motion.time_at(use.to);
   by_line_.back().removed.add(removed);
 }
 
@@ -508,9 +511,32 @@ void MaterialCheck::compare_with_target() {
   }
 }
 
+void MaterialCheck::look_for_loose_pieces() {
+  for (const stock::StockPiece& piece : loose_pieces(stock_, workpiece_)) {
+    const auto is_known = [&](const solids::BoundingBox& box) { return box.contains(piece.bounds); };
+    if (std::any_of(loose_.begin(), loose_.end(), is_known)) continue;
+    loose_.push_back(piece.bounds);
+    Incident incident{.kind = IncidentKind::LoosePiece,
+                      .line = piece.last_cut.value_or(static_cast<stock::CutTag>(last_line_)),
+                      .time = last_time_,
+                      .tool = code_,
+                      .amount = piece.bounds.sizes().z(),
+                      .volume = piece.volume,
+                      .point = in_machine(piece.bounds.center()),
+                      .frame = last_frame_};
+    const auto cut = std::partition_point(by_line_.begin(), by_line_.end(),
+                                          [&](const RemovedByLine& each) { return each.line < incident.line; });
+    if (cut != by_line_.end() && cut->line == incident.line) incident.time = cut->end_time;
+    incident.end_line = incident.line;
+    incident.end_time = incident.time;
+    keep(incident);
+  }
+}
+
 void MaterialCheck::finish() {
   cut_waiting();
   close_all();
+  look_for_loose_pieces();
   std::stable_sort(incidents_.begin(), incidents_.end(),
                    [](const Incident& a, const Incident& b) { return a.time < b.time; });
   drop_said_twice(incidents_);

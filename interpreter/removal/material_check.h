@@ -99,6 +99,7 @@ class MaterialCheck {
   void find_worst(Episode& episode, const stock::Stock& before);
   stock::SweepPath placed(const stock::SweepPath& tip, Role role) const;
   void compare_with_target();
+  void look_for_loose_pieces();
   void close(Episode& episode);
   void close_all();
   void keep(Incident incident);
@@ -137,6 +138,7 @@ class MaterialCheck {
   std::optional<Incident> way_;  ///< Feed motions that have met nothing so far.
   std::vector<RemovedByTool> by_tool_;
   std::vector<RemovedByLine> by_line_;
+  std::vector<solids::BoundingBox> loose_;  ///< Where pieces have come free.
 };
 
 }  // namespace isocnc::removal

@@ -214,6 +214,25 @@ TEST(Material, WhatIsCutOffIsNotLeft) {
   EXPECT_EQ(told(bench.cut(around + "Y135\nG00 Z50\n")).size(), 1u);
 }
 
+TEST(Material, PiecesThatNothingHolds) {
+  const std::string around = "G00 X315 Y120 Z50\nG01 Z-0.1 F1000\nX385\nY180\nX315\n";
+  Bench bench;
+  bench.box("clamp", {280, 95, 0}, {300, 105, 40});
+  const VerifiedRun run = bench.cut(around + "Y120\nG00 Z50\n");
+  EXPECT_EQ(told(run), Lines{"W161 8 40.0"});
+  EXPECT_NEAR(*run.contacts[0].volume, 50 * 40 * 40, 1000);
+  EXPECT_GT(run.contacts[0].time, 0);
+  // A tab of 10 mm holds it.
+  EXPECT_EQ(told(bench.cut(around + "Y150\nG00 Z50\n")), Lines());
+  // It comes free once, whatever comes after.
+  EXPECT_EQ(told(bench.cut(around + "Y120\nG00 Z50\nM06 T102001\nG00 X0 Y0\n")).size(), 1u);
+  // A cup below it holds it.
+  bench.box("cup", {340, 140, -60}, {360, 160, 0});
+  EXPECT_EQ(told(bench.cut(around + "Y120\nG00 Z50\n")), Lines());
+  // Where nothing is described that holds, nothing is said.
+  EXPECT_EQ(told(Bench().cut(around + "Y120\nG00 Z50\n")), Lines());
+}
+
 TEST(Material, ThreadsChangeNothing) {
   const std::string moves =
       "G00 X320 Y120 Z50\nG01 Z30 F1000\nX380\nY180\nX320\nY120\nG00 Z25\nX380 Y180\nZ50\nG01 Z-25\nG00 Z50\n";

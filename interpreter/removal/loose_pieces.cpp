@@ -1,0 +1,46 @@
+#include "interpreter/removal/loose_pieces.h"
+
+#include <algorithm>
+
+namespace isocnc::removal {
+
+using stock::StockPiece;
+
+/// What is nearer touches: the dexels know a wall to within their spacing.
+static constexpr double kTouch = 1;  // mm
+/// Smaller pieces go away with the chips.
+static constexpr double kMinVolume = 100;  // mm^3
+static constexpr double kMinWidth = 2;     // mm
+
+static bool touches(const StockPiece& piece, const stock::Stock& stock, const solids::BoundingBox& box) {
+  const solids::BoundingBox near(box.min().array() - kTouch - stock.spacing(),
+                                 box.max().array() + kTouch + stock.spacing());
+  if (!near.intersects(piece.bounds)) return false;
+  bool found = false;
+  for_each_interval(piece, [&](int column, int row, const stock::HeightInterval& z) {
+    const double x = stock.grid().x(column);
+    const double y = stock.grid().y(row);
+    found = found || (x >= near.min().x() && x <= near.max().x() && y >= near.min().y() && y <= near.max().y() &&
+                      z.bottom <= near.max().z() && z.top >= near.min().z());
+  });
+  return found;
+}
+
+static bool is_held(const StockPiece& piece, const stock::Stock& stock, const Workpiece& workpiece) {
+  if (workpiece.board_top && piece.bounds.min().z() <= *workpiece.board_top + kTouch) return true;
+  return std::any_of(workpiece.holding.begin(), workpiece.holding.end(),
+                     [&](const solids::BoundingBox& box) { return touches(piece, stock, box); });
+}
+
+std::vector<StockPiece> loose_pieces(const stock::Stock& stock, const Workpiece& workpiece) {
+  if (workpiece.holding.empty() && !workpiece.board_top) return {};
+  std::vector<StockPiece> pieces = stock::pieces_of(stock);
+  if (pieces.size() < 2 || !is_held(pieces.front(), stock, workpiece)) return {};
+  std::erase_if(pieces, [&](const StockPiece& piece) {
+    const Eigen::Vector3d sizes = piece.bounds.sizes();
+    return piece.volume < kMinVolume || sizes.head<2>().minCoeff() < kMinWidth || is_held(piece, stock, workpiece);
+  });
+  return pieces;
+}
+
+}  // namespace isocnc::removal
