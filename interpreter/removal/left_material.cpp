@@ -41,8 +41,9 @@ class Sets {
     return i;
   }
   void join(std::size_t a, std::size_t b) {
-    const auto [low, high] = std::minmax(find(a), find(b));
-    parents_[high] = low;
+    const std::size_t one = find(a);
+    const std::size_t other = find(b);
+    parents_[std::max(one, other)] = std::min(one, other);
   }
 
  private:
