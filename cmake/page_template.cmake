@@ -38,7 +38,7 @@ if(NOT NPM OR NOT NODE)
   return()
 endif()
 
-file(GLOB sources ${VIEW}/src/* ${VIEW}/build.mjs ${VIEW}/package-lock.json)
+file(GLOB sources ${VIEW}/src/* ${VIEW}/build.mjs ${VIEW}/page_file.mjs ${VIEW}/package-lock.json)
 set(digests)
 foreach(source IN LISTS sources)
   file(SHA256 ${source} digest)

@@ -53,17 +53,18 @@ export function recordingIn(page) {
   const html = readFileSync(page, 'utf8');
   const block = (id) => new RegExp(`<script id="data-${id}"[^>]*>([^<]*)</script>`).exec(html)[1];
   const bytes = (id) => new Uint8Array(Buffer.from(block(id), 'base64'));
-  return { facts: JSON.parse(block('facts')), steps: bytes('steps'), points: bytes('points'), turns: bytes('turns') };
+  const cuts = html.includes('id="data-cuts"') && { cuts: bytes('cuts') };
+  return { facts: JSON.parse(block('facts')), steps: bytes('steps'), points: bytes('points'), turns: bytes('turns'), ...cuts };
 }
 
 
 /** A number of seven bits a byte, the lowest first; signed ones take the lowest bit for their sign. */
-function packed(value) {
+export function packed(value) {
   const bytes = [];
   for (; value >= 0x80; value = Math.floor(value / 0x80)) bytes.push((value % 0x80) + 0x80);
   return [...bytes, value];
 }
-const packedSigned = (value) => packed(value < 0 ? -2 * value - 1 : 2 * value);
+export const packedSigned = (value) => packed(value < 0 ? -2 * value - 1 : 2 * value);
 
 /** A recording written by hand. Moves have `line` (from 1), `kind` (0 rapid, 1 feed move, 2 arc), `tool` (place among the facts' tools), and `points`, each
  * [x, y, z, b, c] in mm and degrees, with the seconds that each takes; the tool moves evenly. */
@@ -88,6 +89,18 @@ export function recordingOf(facts, moves) {
   }
   const bytes = (values) => Uint8Array.from(values);
   return { facts, steps: bytes(steps), points: bytes(points), turns: bytes(turns) };
+}
+
+/** A page of this tree's own script, with a recording and a program in it. */
+export async function freshPage(name, recording, program) {
+  const { makePage } = await import(pathToFileURL(join(root, 'toolpath-view/page_file.mjs')));
+  const base64 = (bytes) => Buffer.from(bytes).toString('base64');
+  const data = { facts: JSON.stringify(recording.facts).replaceAll('<', '\\u003c'), program: base64(Buffer.from(program)) };
+  for (const stream of ['steps', 'points', 'turns', 'cuts']) if (recording[stream]) data[stream] = base64(recording[stream]);
+  const blocks = Object.entries(data).map(([id, text]) => `<script id="data-${id}" type="application/json">${text}</script>\n`);
+  // Functions, since a replacement that is text may hold $&.
+  const page = (await makePage()).replace('<!--title-->', () => name).replace('<!--data-->', () => blocks.join(''));
+  return write(`${name}.html`, page);
 }
 
 /** A page of isorun with another recording in it. */

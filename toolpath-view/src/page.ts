@@ -8,9 +8,10 @@ import { ProgramText } from './program_text';
 import { texts, type Language } from './texts';
 import { Toolpath, type Facts } from './toolpath';
 
-/** Takes a block of data out of the page, so that its text need not stay in memory. */
+/** Takes a block of data out of the page, so that its text need not stay in memory; empty where there is none. */
 function takeBytes(id: string): Uint8Array {
-  const block = byId(`data-${id}`);
+  const block = document.getElementById(`data-${id}`);
+  if (!block) return new Uint8Array();
   const text = atob(block.textContent ?? '');
   block.remove();
   const bytes = new Uint8Array(text.length);
@@ -25,6 +26,7 @@ class Page {
     steps: takeBytes('steps'),
     points: takeBytes('points'),
     turns: takeBytes('turns'),
+    cuts: takeBytes('cuts'),
   });
   private readonly program = new ProgramText(takeBytes('program'));
   private readonly list = new ProgramList(byId('program'), this.program, (line) => {

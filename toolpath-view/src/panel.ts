@@ -167,7 +167,7 @@ export class Panel {
 
   /** A blank that the setup describes is shown unless somebody hides it; a box around what is cut only if somebody asks. */
   private showStock(): void {
-    if (this.isStockChosen || !this.view?.hasBodies('stock')) return;
+    if (this.isStockChosen || !this.view?.hasStock) return;
     this.shown.stock = true;
     this.view.show('stock', true);
   }

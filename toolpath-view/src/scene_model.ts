@@ -161,6 +161,11 @@ export class SceneModel {
     }
   }
 
+  /** Where what stands on a link is, in the frame of the path. */
+  poseOf(on: SceneBody['on']): THREE.Matrix4 {
+    return this.carriers.get(this.linkOf(on))!.matrix;
+  }
+
   /** Lights marks of contacts up. */
   light(contacts: Iterable<number>): void {
     this.lit.clear();

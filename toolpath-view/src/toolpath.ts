@@ -1,6 +1,8 @@
 /** The path of the tool tip, as isorun has recorded it (interpreter/plot/path_recording.cpp writes it). Machine frame; mm,
  * degrees, seconds. Lines count from 0. */
+import { PackedReader as Reader } from './packed_reader';
 import type { Contact, Scene } from './scene';
+import type { StockFacts } from './stock';
 
 export const Kind = { Rapid: 0, Feed: 1, Arc: 2, Wait: 3 } as const;
 export type Vector = [number, number, number];
@@ -39,6 +41,8 @@ export interface Facts {
   scene?: Scene;
   /** What the machine would hit, in the order of the run. */
   contacts?: Contact[];
+  /** The stock that is cut, where a setup describes one and the run has been verified. */
+  stock?: StockFacts;
   /** What has been verified, in a line of text. */
   certificate?: string;
 }
@@ -48,6 +52,8 @@ export interface Recording {
   steps: Uint8Array;
   points: Uint8Array;
   turns: Uint8Array;
+  /** The stock over time (stock_timeline.ts), where there is one. */
+  cuts?: Uint8Array;
 }
 
 /** Steps one after another, `end` after the last. */
@@ -71,30 +77,6 @@ export interface Place {
   speed: number;
 }
 
-/** Reads numbers of seven bits a byte, the lowest first. */
-class Reader {
-  private at = 0;
-  constructor(private readonly bytes: Uint8Array) {}
-
-  get isAtEnd(): boolean {
-    return this.at >= this.bytes.length;
-  }
-  next(): number {
-    let value = 0;
-    let scale = 1;
-    for (;;) {
-      const byte = this.bytes[this.at++] ?? 0;
-      value += (byte & 0x7f) * scale;
-      if (byte < 0x80) return value;
-      scale *= 0x80;
-    }
-  }
-  nextSigned(): number {
-    const value = this.next();
-    return value % 2 === 0 ? value / 2 : -(value + 1) / 2;
-  }
-}
-
 const Bits = { kind: 0x03, otherLine: 0x04, otherTool: 0x08, otherFeed: 0x10, pause: 0x20, pointCount: 0x40 };
 
 /** Points stand for the path within this, in mm. */
@@ -108,6 +90,8 @@ function distanceOf(one: Vector, other: Vector): number {
  * belongs to the step that leads to it. */
 export class Toolpath {
   readonly facts: Facts;
+  /** The stock over time, as recorded; empty where there is none. */
+  readonly cuts: Uint8Array;
   readonly stepCount: number;
   readonly stepLine: Uint32Array;
   readonly stepKind: Uint8Array;
@@ -132,6 +116,7 @@ export class Toolpath {
 
   constructor(recording: Recording) {
     this.facts = recording.facts;
+    this.cuts = recording.cuts ?? new Uint8Array();
     const size = measure(recording.steps);
     this.stepCount = size.steps;
     this.pointCount = size.points;

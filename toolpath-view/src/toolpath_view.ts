@@ -11,6 +11,8 @@ import { arcCenter, type Snap } from './measuring';
 import { PathLines } from './path_lines';
 import { codeOf, type Role } from './scene';
 import { SceneModel } from './scene_model';
+import { StockModel } from './stock_model';
+import { StockTimeline } from './stock_timeline';
 import { Kind, type Steps, type Toolpath, type Vector } from './toolpath';
 
 export type Look = 'iso' | 'top' | 'front' | 'side';
@@ -68,6 +70,8 @@ export class ToolpathView {
   private stock: THREE.LineSegments | null = null;
   /** Corners that somebody knows; else it is around what is cut. */
   private stockKnown: Box | null = null;
+  /** The stock that is cut, where it has been recorded. */
+  private cutStock: StockModel | null = null;
   private surroundings: SceneModel | null = null;
   private readonly measure = new MeasureModel();
   private isMeasuring = false;
@@ -121,6 +125,7 @@ export class ToolpathView {
     this.tip.renderOrder = 4;
     this.world.add(this.tool.object, this.head.object, this.tip, this.measure.object);
     this.surround();
+    this.placeCutStock();
     const sky = new THREE.HemisphereLight(0xffffff, 0x777788, 2.2);
     sky.position.set(0, 0, 1);
     const sun = new THREE.DirectionalLight(0xffffff, 1.6);
@@ -154,6 +159,7 @@ export class ToolpathView {
     this.tip.material.color.setHex(number(palettes[theme].highlight));
     this.measure.setTheme(theme);
     this.surroundings?.setTheme(theme);
+    this.cutStock?.setTheme(theme);
     this.furnish();
     this.paint();
     this.litSteps = nothing;
@@ -174,6 +180,7 @@ export class ToolpathView {
     this.scene.add(this.lines.mesh);
     this.centers = null;
     this.surround();
+    this.placeCutStock();
     this.keep(this.filter);
     this.selected = null;
     this.time = Math.min(this.time, path.seconds);
@@ -204,6 +211,16 @@ export class ToolpathView {
   /** Whether the scene has bodies of a role. */
   hasBodies(role: Role): boolean {
     return this.surroundings?.hasRole(role) ?? false;
+  }
+
+  /** For tests, which look from outside. */
+  get stockModel(): StockModel | null {
+    return this.cutStock;
+  }
+
+  /** Whether there is a stock to show: one that is cut, or a body of the scene. */
+  get hasStock(): boolean {
+    return this.cutStock !== null || this.hasBodies('stock');
   }
 
   /** Whether the scene has the spindle, so that no head of a common size is drawn. */
@@ -251,8 +268,8 @@ export class ToolpathView {
     this.frames.visible = this.shown.frames;
     if (this.travel) this.travel.visible = this.shown.travel;
     if (this.grid) this.grid.visible = this.shown.grid;
-    if (this.stock) this.stock.visible = this.shown.stock && !this.hasBodies('stock');
-    this.surroundings?.show((role) => this.shown[layerOf[role]], this.shown.tool);
+    if (this.stock) this.stock.visible = this.shown.stock && !this.hasStock;
+    this.showBodies();
     if (layer === 'rapids') this.paint();
     this.setTime(this.time);
   }
@@ -271,6 +288,7 @@ export class ToolpathView {
     this.isToolKnown = this.surroundings?.mount(codeOf(tool.name), tool.length) ?? false;
     this.toolLength = tool.length ?? 0;
     this.surroundings?.touchAt(time);
+    this.cutStock?.setTime(time);
     this.pose(place.tip, place.b, place.c);
     if (this.travel) this.travel.position.z = this.travel.userData.height - (tool.length ?? 0);
     this.lines.set({ reached: place.point - 1, reachedPart: place.part, aheadOpacity: this.shown.ahead ? 0.28 : 0 });
@@ -285,6 +303,7 @@ export class ToolpathView {
     this.tool.object.visible = this.shown.tool && !this.isToolKnown;
     this.head.object.visible = this.shown.head && turns && this.path.turned.length > 0 && !this.hasSpindle;
     this.surroundings?.place(tip, b, c, this.toolLength);
+    this.carryCutStock();
     this.tool.place(at, turns ? b : 0, turns ? c : 0);
     this.head.place(at, turns ? b : 0, turns ? c : 0, this.tool.length, this.theme);
     this.tip.position.copy(at);
@@ -498,7 +517,7 @@ export class ToolpathView {
     if (!this.surroundings) return;
     this.world.add(this.surroundings.object);
     this.surroundings.setTheme(this.theme);
-    this.surroundings.show((role) => this.shown[layerOf[role]], this.shown.tool);
+    this.showBodies();
     const { tip, b, c } = this.path.at(0);
     this.surroundings.place(tip, b, c, 0);
     this.floor = this.surroundings.floor();
@@ -507,9 +526,46 @@ export class ToolpathView {
       for (const corner of [min, max]) this.extent = Math.max(this.extent, 2 * corner.distanceTo(this.center));
   }
 
+  /** Makes a model of the stock that is cut in the path. */
+  private placeCutStock(): void {
+    if (this.cutStock) {
+      this.world.remove(this.cutStock.object);
+      this.cutStock.dispose();
+      this.cutStock = null;
+    }
+    const { facts, cuts } = this.path;
+    if (facts.stock && cuts.length > 0) {
+      try {
+        this.cutStock = new StockModel(new StockTimeline(facts.stock, cuts), this.theme);
+        this.world.add(this.cutStock.object);
+      } catch (problem) {
+        // The path is shown all the same, with the blank.
+        console.error(problem);
+      }
+    }
+    this.showBodies();
+  }
+
+  /** The stock is on the table, or rests. */
+  private carryCutStock(): void {
+    const { cutStock, surroundings } = this;
+    if (!cutStock) return;
+    const pose = surroundings?.poseOf(cutStock.facts.onTable ? 'workpiece' : 'machine');
+    if (pose) cutStock.object.matrix.copy(pose);
+    cutStock.object.matrixWorldNeedsUpdate = true;
+  }
+
+  /** A blank of the scene makes room for the stock that is cut. */
+  private showBodies(): void {
+    const isShown = (role: Role) => this.shown[layerOf[role]] && !(role === 'stock' && this.cutStock);
+    this.surroundings?.show(isShown, this.shown.tool);
+    if (this.cutStock) this.cutStock.object.visible = this.shown.stock;
+  }
+
   private everything(): { min: Vector; max: Vector } {
     const box = new THREE.Box3(new THREE.Vector3(...this.path.min), new THREE.Vector3(...this.path.max));
     if (this.surroundings) box.union(this.surroundings.bounds());
+    if (this.cutStock && this.shown.stock) box.union(this.cutStock.bounds());
     return { min: box.min.toArray(), max: box.max.toArray() };
   }
 
@@ -590,7 +646,7 @@ export class ToolpathView {
     this.grid = grid(new THREE.Vector3(min[0], min[1], floor), new THREE.Vector3(...max), this.theme);
     this.stock = stock(this.stockKnown ?? this.path.work, this.theme);
     for (const each of [this.frames, this.travel, this.grid, this.stock]) if (each) this.world.add(each);
-    if (this.stock) this.stock.visible = this.shown.stock && !this.hasBodies('stock');
+    if (this.stock) this.stock.visible = this.shown.stock && !this.hasStock;
     this.frames.visible = this.shown.frames;
     if (this.travel) this.travel.visible = this.shown.travel;
     this.grid.visible = this.shown.grid;
@@ -662,6 +718,8 @@ export class ToolpathView {
     this.tip.scale.setScalar((12 / height) * (this.size / this.camera.zoom));
     this.surroundings?.scaleMarks(millimeters);
     this.measure.scale(millimeters);
+    this.camera.updateMatrixWorld();
+    if (this.cutStock && this.shown.stock && !this.cutStock.update(this.camera, 1 / millimeters)) this.invalidate();
     const scale = { pixelsPerMillimeter: this.renderer.getPixelRatio() / millimeters };
     this.lines.set(scale);
     this.lit?.set(scale);

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { viewModule } from '../modules.mjs';
 
-const { applied, patched, whole } = await viewModule('streams');
+const { applied, patched, received, whole } = await viewModule('streams');
 const bytes = (...values) => Uint8Array.from(values);
 
 /** How one stream differs from another, as isols reports it. */
@@ -44,4 +44,20 @@ test('a recording goes there and back', () => {
   const facts = { version: 1 };
   const recording = { facts, steps: bytes(1), points: bytes(2, 3), turns: bytes() };
   assert.deepEqual(applied(null, facts, whole(recording)), recording);
+});
+
+test('a stock may come with a path, change with it, and go', () => {
+  const facts = { version: 1 };
+  const bare = { facts, steps: bytes(1), points: bytes(2, 3), turns: bytes() };
+  const cut = { ...bare, cuts: bytes(4, 5, 6) };
+  const same = whole(bare);
+  assert.deepEqual(applied(null, facts, whole(cut)), cut);
+  assert.deepEqual(applied(bare, facts, { ...same, cuts: { data: bytes(4, 5, 6) } }), cut);
+  assert.deepEqual(applied(bare, facts, { ...same, cuts: { start: 0, removed: 0, data: bytes(4) } }).cuts, bytes(4));
+  assert.deepEqual(applied(cut, facts, { ...same, cuts: { start: 1, removed: 1, data: bytes(9) } }).cuts, bytes(4, 9, 6));
+  assert.deepEqual(applied(cut, facts, same), bare);
+  const sent = { steps: { data: 'AQ==' }, points: { data: 'AgM=' }, turns: { data: '' }, cuts: { start: 1, removed: 0, data: 'CQ==' } };
+  const decoded = received(sent, (base64) => new Uint8Array(Buffer.from(base64, 'base64')));
+  assert.deepEqual(decoded.cuts, { start: 1, removed: 0, data: bytes(9) });
+  assert.equal('cuts' in received({ ...sent, cuts: undefined }, () => bytes()), false);
 });

@@ -3,7 +3,7 @@ import * as vscode from 'vscode';
 import { secondsOf, type Recording } from '../../../toolpath-view/src/toolpath';
 import { settings } from '../environment';
 import type { Server } from '../server';
-import { applied, streamNames, type Patches, type SentToolpath } from '../../../toolpath-view/src/streams';
+import { applied, received, streamNames, type Patches, type SentToolpath } from '../../../toolpath-view/src/streams';
 
 /** How long to wait for another edit. */
 const delay = 120;
@@ -120,11 +120,9 @@ export class ToolpathSource implements vscode.Disposable {
   }
 
   private take(watched: Watched, sent: SentToolpath): void {
-    const patches = Object.fromEntries(
-      streamNames.map((name) => [name, { ...sent[name], data: bytesOf(sent[name].data) }]),
-    ) as Patches;
+    const patches = received(sent, bytesOf);
     const recording = applied(watched.known, sent.facts, patches);
-    const previousResultId = streamNames.some((name) => sent[name].start !== undefined) ? watched.known!.resultId : null;
+    const previousResultId = streamNames.some((name) => sent[name]?.start !== undefined) ? watched.known!.resultId : null;
     watched.known = {
       ...recording,
       uri: watched.document.uri,
