@@ -36,6 +36,10 @@ interface Palette {
   bodies: Record<Role, Color>;
   bodyEdge: Color;
   measure: Color;
+  /** Of a surface that is to become the finished part: material is left, it is right, too much is gone. */
+  deviation: { left: Color; within: Color; gouged: Color };
+  /** Below the blank's top, from nothing to the greatest depth. */
+  depth: Color[];
   /** Of marks where bodies touch. */
   contacts: Record<Severity, Color>;
 }
@@ -64,6 +68,8 @@ export const palettes: Record<Theme, Palette> = {
       machine: color('#9aa3b0'),
     },
     measure: color('#0057b8'),
+    deviation: { left: color('#2f74c9'), within: color('#a9dcb8'), gouged: color('#b3261e') },
+    depth: colors('#f4e3a1', '#e3a857', '#b5633f', '#7a2f4f', '#3b1550'),
     bodyEdge: color('#4a5260'),
     contacts: { error: color('#c62828'), warning: color('#b26a00'), info: color('#2f6fa8') },
   },
@@ -88,6 +94,8 @@ export const palettes: Record<Theme, Palette> = {
       machine: color('#6f7988'),
     },
     measure: color('#8fd3ff'),
+    deviation: { left: color('#3f8fe8'), within: color('#bfe8c6'), gouged: color('#d8432f') },
+    depth: colors('#f7e9b0', '#e8b469', '#c9704d', '#96466a', '#5a3a86'),
     bodyEdge: color('#c3cad5'),
     contacts: { error: color('#ff6b60'), warning: color('#f2b13d'), info: color('#6cb6ff') },
   },
@@ -112,6 +120,8 @@ export const palettes: Record<Theme, Palette> = {
       machine: color('#7a7a7a'),
     },
     measure: color('#003f8a'),
+    deviation: { left: color('#0b57b0'), within: color('#9fe0b0'), gouged: color('#990f0a') },
+    depth: colors('#f2dc8a', '#d9933a', '#9c4a2a', '#611d3f', '#270738'),
     bodyEdge: color('#000000'),
     contacts: { error: color('#b00020'), warning: color('#8a4b00'), info: color('#004f9e') },
   },
@@ -136,17 +146,23 @@ export const palettes: Record<Theme, Palette> = {
       machine: color('#9a9a9a'),
     },
     measure: color('#a6e0ff'),
+    deviation: { left: color('#4da3ff'), within: color('#d2f7d8'), gouged: color('#ff3b2e') },
+    depth: colors('#fff3c2', '#ffc873', '#e8875f', '#b95c86', '#7d58b8'),
     bodyEdge: color('#ffffff'),
     contacts: { error: color('#ff8078'), warning: color('#ffc14d'), info: color('#8cc8ff') },
   },
 };
+
+export function mixed(one: Color, other: Color): Color {
+  return one.map((value, i) => Math.round((value + other[i]) / 2)) as Color;
+}
 
 export function toolColor(theme: Theme, tool: number): Color {
   const { tools } = palettes[theme];
   return tool === 0 ? tools[0] : tools[1 + ((tool - 1) % (tools.length - 1))];
 }
 
-function gradient(stops: Color[], part: number): Color {
+export function gradient(stops: Color[], part: number): Color {
   const at = Math.min(Math.max(part, 0), 1) * (stops.length - 1);
   const i = Math.min(Math.floor(at), stops.length - 2);
   const mix = (channel: number) => Math.round(stops[i][channel] + (at - i) * (stops[i + 1][channel] - stops[i][channel]));

@@ -15,7 +15,7 @@ function entry(color: Color, text: string, isDashed = false): HTMLElement {
   return element('div', { className: 'entry' }, sample(color, isDashed), text);
 }
 
-function scale(stops: Color[], min: string, max: string): HTMLElement[] {
+export function scale(stops: Color[], min: string, max: string): HTMLElement[] {
   const bar = element('div', { className: 'scale' });
   bar.style.background = `linear-gradient(to right, ${stops.map(css).join(', ')})`;
   return [bar, element('div', { className: 'ends' }, element('span', {}, min), element('span', {}, max))];

@@ -105,6 +105,7 @@ function nameOf({ kind, line, body }: Snap, texts: Texts): string {
     axis: texts.snapAxis,
     path: texts.snapPath,
     surface: texts.snapSurface,
+    stock: line === undefined ? texts.snapBlank : texts.snapStock,
     tip: texts.snapTip,
   };
   return names[kind].replace('{}', body ? shownName(body, texts) : String((line ?? -1) + 1));

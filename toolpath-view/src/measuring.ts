@@ -3,13 +3,13 @@ import type { SceneBody } from './scene';
 import { Kind, type Toolpath, type Vector } from './toolpath';
 
 /** What a place is: the end of a move, the center of an arc, a corner or the center of a body's end; else anywhere on the path or on
- * a body, or the tip of the tool. */
-export type SnapKind = 'end' | 'center' | 'corner' | 'axis' | 'path' | 'surface' | 'tip';
+ * a body or the stock, or the tip of the tool. */
+export type SnapKind = 'end' | 'center' | 'corner' | 'axis' | 'path' | 'surface' | 'stock' | 'tip';
 
 export interface Snap {
   at: Vector;
   kind: SnapKind;
-  /** Of the path; from 0. */
+  /** Of the path, or that has cut the stock; from 0. */
   line?: number;
   body?: SceneBody;
 }

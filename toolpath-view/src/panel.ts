@@ -11,6 +11,10 @@ import { legend } from './legend';
 import type { MachinePosition } from './machine_position';
 import { MeasureTool } from './measure_tool';
 import { Player, speeds } from './player';
+import { download, nameBeside } from './saving';
+import { removedBy } from './stock';
+import { StockControls } from './stock_controls';
+import { removedVolume, volumeText } from './stock_legend';
 import type { Snap } from './measuring';
 import { roles, severityOf, type Contact } from './scene';
 import { texts, type Language, type Texts } from './texts';
@@ -46,6 +50,9 @@ export class Panel {
   /** Somebody clicked a move of this line. */
   onPick: (line: number) => void = () => {};
 
+  /** Somebody saves a file; a browser downloads it. */
+  onSave: (name: string, content: Blob) => void = download;
+
   private readonly shown: Record<Layer, boolean>;
   private readonly littleMotion = matchMedia('(prefers-reduced-motion: reduce)');
   private totals: Totals;
@@ -55,6 +62,7 @@ export class Panel {
   private readonly contacts = new ContactList();
   private readonly hiding = new Hiding();
   private readonly measuring: MeasureTool | null;
+  private readonly stock: StockControls | null;
   private isStockChosen = false;
   /** The contact that was shown last, until another line is. */
   private contact = -1;
@@ -73,6 +81,7 @@ export class Panel {
     this.view = this.makeView();
     this.showStock();
     this.measuring = this.view && new MeasureTool(this.view, () => this.tipSnap());
+    this.stock = this.view && new StockControls(this.view, () => this.texts, () => this.theme);
     this.setUp();
     this.write();
     this.player.onChange = () => this.update();
@@ -114,6 +123,7 @@ export class Panel {
     this.theme = theme;
     this.view?.setTheme(theme, background);
     this.writeLegend();
+    this.stock?.writeLegend();
   }
 
   setLanguage(language: Language): void {
@@ -159,6 +169,11 @@ export class Panel {
         this.onPick(this.path.stepLine[this.path.pointStep[hit.point]]);
       };
       view.onContact = (contact) => this.showContact(contact);
+      view.onCut = (line) => {
+        this.choose(line);
+        this.view?.select(this.path.stepsOf(line));
+        this.onPick(line);
+      };
       return view;
     } catch {
       return null;
@@ -199,6 +214,8 @@ export class Panel {
         this.measuring?.write(this.texts);
         this.markLooks();
       };
+    byId('save-picture').addEventListener('click', () => void this.savePicture());
+    byId('save-stock').addEventListener('click', () => this.saveStock());
     byId('settings').addEventListener('submit', (event) => event.preventDefault());
     this.keys.addEventListener('keydown', (event) => this.onKey(event as KeyboardEvent));
     for (const name of ['previous', 'next'] as const) byId(name).append(icon(name));
@@ -254,6 +271,16 @@ export class Panel {
   private tipSnap(): Snap {
     const { tip, step } = this.path.at(this.player.time);
     return { at: tip, kind: 'tip', line: step < 0 ? -1 : this.path.stepLine[step] };
+  }
+
+  private async savePicture(): Promise<void> {
+    const picture = await this.view?.picture();
+    if (picture) this.onSave(nameBeside(this.path.facts.name, 'png'), picture);
+  }
+
+  private saveStock(): void {
+    const parts = this.view?.stl();
+    if (parts) this.onSave(nameBeside(this.path.facts.name, 'stl'), new Blob(parts, { type: 'model/stl' }));
   }
 
   private toggleHiding(): void {
@@ -324,6 +351,7 @@ export class Panel {
     this.writeLayers();
     this.writeLegend();
     this.writeKeys();
+    this.stock?.write(this.path);
     this.hiding.write(this.path, texts);
     this.measuring?.write(texts);
     const { contacts = [], certificate } = this.path.facts;
@@ -355,6 +383,12 @@ export class Panel {
       [texts.cut, lengthText(totals.cut)],
       [texts.rapidPath, lengthText(totals.rapid)],
     ];
+    const { stock } = path.facts;
+    if (stock) {
+      const lines = this.selected && { first: path.stepLine[this.selected.start], last: path.stepLine[this.selected.end - 1] };
+      rows.push([texts.removed, volumeText(removedVolume(stock, lines))]);
+      if (!lines) rows.push([texts.remaining, volumeText(stock.volume)]);
+    }
     if (totals.moves > 0) rows.push([texts.extents, extents.join('  ')]);
     byId('totals').replaceChildren(...rows.map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, value))));
   }
@@ -407,14 +441,17 @@ export class Panel {
       .filter(([layer]) => !bodyLayers.has(layer) || this.view?.hasBodies(bodyLayers.get(layer)!))
       .map(([layer, text]) => {
         const input = element('input', { type: 'checkbox', id: `layer-${layer}`, checked: this.shown[layer] });
-        input.addEventListener('change', () => {
-          this.shown[layer] = input.checked;
-          if (layer === 'stock') this.isStockChosen = true;
-          this.view?.show(layer, input.checked);
-        });
+        input.addEventListener('change', () => this.showLayer(layer, input.checked));
         return element('label', {}, input, this.texts[text]);
       });
     byId('layers').replaceChildren(...boxes);
+  }
+
+  private showLayer(layer: Layer, is: boolean): void {
+    this.shown[layer] = is;
+    if (layer === 'stock') this.isStockChosen = true;
+    this.view?.show(layer, is);
+    byId<HTMLInputElement>(`layer-${layer}`).checked = is;
   }
 
   private writeLegend(): void {
@@ -436,6 +473,14 @@ export class Panel {
       [['N', texts.enter], texts.keyMeasurePlaces],
       [['H'], texts.keyHide],
       ...(this.path.facts.contacts?.length ? [[['E'], texts.keyContacts] as [string[], string]] : []),
+      ...(this.stock?.isThere
+        ? ([
+            [['S', 'B'], texts.keyStock],
+            [['X', 'Y', 'Z'], texts.keySection],
+            [[texts.pageUp, texts.pageDown, 'R'], texts.keySectionMove],
+          ] as [string[], string][])
+        : []),
+      [this.stock?.isThere ? ['P', 'O'] : ['P'], this.stock?.isThere ? texts.keySave : texts.keySavePicture],
       [['←', '→', '↑', '↓', '+', '-'], texts.keyStage],
       [['↑', '↓'], texts.keyProgram],
     ];
@@ -491,6 +536,11 @@ export class Panel {
       rows.push(`${texts.line} ${path.stepLine[place.step] + 1}: ${names[kind as keyof typeof names]}`);
       if (rate > 0) rows.push(`, F ${feed(rate)}`);
       const tool = path.facts.tools[path.stepTool[place.step]].name ?? texts.noTool;
+      const removed = path.facts.stock && removedBy(path.facts.stock, path.stepLine[place.step]);
+      if (removed) {
+        const figures = [volumeText(removed.volume), `${removed.depth.toFixed(2)} mm`, `${removed.width.toFixed(2)} mm`];
+        rows.push('\n', element('span', { id: 'removes' }, texts.cutsHere.replaceAll('{}', () => figures.shift()!)));
+      }
       rows.push('\n', element('span', { className: 'faint' }, `${tool}, ${(place.speed * 60).toFixed(0)} ${texts.unit}`));
     }
     byId('readout').replaceChildren(...rows);
@@ -519,6 +569,8 @@ export class Panel {
       if (turns[key]) return turns[key];
     }
     if (key === 'Escape') return this.escape();
+    if (target.id === 'program' && key.startsWith('Page')) return undefined;
+    if (target.id === 'section-place' && /^(Arrow|Home|End|Page)/.test(key)) return undefined;
     const isControl = target.matches('button, select, summary, input[type=radio], input[type=checkbox]');
     if (isControl && (key === ' ' || key === 'Enter' || key.startsWith('Arrow') || key === 'Home' || key === 'End')) return undefined;
     if (target.matches('select, input[type=number]')) return undefined;
@@ -548,16 +600,35 @@ export class Panel {
       m: () => this.measuring?.toggle(),
       h: () => this.toggleHiding(),
       e: () => this.walkContacts(shiftKey ? -1 : 1),
+      p: () => void this.savePicture(),
       '?': () => byId<HTMLDialogElement>('keys').showModal(),
+      ...this.stockKeys(shiftKey),
     };
     return keys[key.length === 1 ? key.toLowerCase() : key];
+  }
+
+  private stockKeys(shiftKey: boolean): Record<string, () => void> {
+    const { stock } = this;
+    if (!stock?.isThere) return {};
+    const far = shiftKey ? 10 : 1;
+    return {
+      s: () => this.showLayer('stock', !this.shown.stock),
+      b: () => stock.walkModes(shiftKey ? -1 : 1),
+      x: () => stock.toggle(0),
+      y: () => stock.toggle(1),
+      z: () => stock.toggle(2),
+      o: () => this.saveStock(),
+      ...(stock.hasSection && { r: () => stock.turn(), PageUp: () => stock.move(far), PageDown: () => stock.move(-far) }),
+    };
   }
 
   /** Ends what was opened last. */
   private escape(): (() => void) | undefined {
     if (!byId('hiding').hidden) return () => this.toggleHiding();
     const { measuring } = this;
-    return measuring?.isActive ? () => measuring.end() : undefined;
+    if (measuring?.isActive) return () => measuring.end();
+    const { stock } = this;
+    return stock?.hasSection ? () => stock.end() : undefined;
   }
 
   private setSpeed(direction: 1 | -1): void {

@@ -2,7 +2,7 @@
  * marks where they touch. */
 import * as THREE from 'three';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
-import { number, palettes, type Color, type Theme } from './colors';
+import { mixed, number, palettes, type Theme } from './colors';
 import { jointsOf, poseBesideWorkpiece, spindleLink, workpieceLink } from './link_pose';
 import { bodyOf, links, severities, severityOf, trianglesOf, type Contact, type CylinderShape, type Link, type Outline, type Role, type Scene, type SceneBody, type Severity } from './scene';
 import type { Vector } from './toolpath';
@@ -329,10 +329,6 @@ function toolMaterial(opacity: number): THREE.MeshStandardMaterial {
     opacity,
     side: THREE.DoubleSide,
   });
-}
-
-function mixed(one: Color, other: Color): Color {
-  return one.map((value, i) => Math.round((value + other[i]) / 2)) as Color;
 }
 
 /** Null where a body has no shape, or none with an extent. */

@@ -21,9 +21,19 @@ const pad = 3;
 /** Heights that differ by less are of one surface, µm. */
 const sameSurface = 20;
 /** How steep a surface can be that looks smooth; steeper ones are walls. */
-const steepest = 2.5;
+export const steepest = 2.5;
 /** A difference of heights is a wall where it is so many times those beside it. */
 const abrupt = 3;
+
+/** Whether two heights beside each other are of one surface: their difference is at most `limit`, and like one of those before and behind them. */
+export function isOneSurface(before: number, here: number, next: number, behind: number, limit: number): boolean {
+  if (here === noMaterial || next === noMaterial) return false;
+  const difference = Math.abs(next - here);
+  if (difference <= sameSurface) return true;
+  if (difference > limit) return false;
+  const [one, other] = [before === noMaterial ? 0 : Math.abs(here - before), behind === noMaterial ? 0 : Math.abs(behind - next)];
+  return difference <= abrupt * Math.max(one, other) + sameSurface;
+}
 
 const corners = { southWest: 0, southEast: 1, northEast: 2, northWest: 3 };
 
@@ -105,15 +115,10 @@ export class SurfaceBuilder {
       }
   }
 
-  /** Whether two cells are of one surface: the difference of their heights is like one of those before and behind it. */
   private goesOn(cell: number, next: number, before: number, behind: number, width: number): boolean {
     const { tops } = this;
-    if (tops[cell] === noMaterial || tops[next] === noMaterial) return false;
-    const difference = Math.abs(tops[next] - tops[cell]);
-    if (difference <= sameSurface) return true;
-    if (difference > 1000 * steepest * width) return false;
-    const beside = (one: number, other: number) => (other < 0 || tops[other] === noMaterial ? 0 : Math.abs(tops[other] - tops[one]));
-    return difference <= abrupt * Math.max(beside(cell, before), beside(next, behind)) + sameSurface;
+    const top = (at: number) => (at < 0 ? noMaterial : tops[at]);
+    return isOneSurface(top(before), tops[cell], tops[next], top(behind), 1000 * steepest * width);
   }
 
   private slope(): void {

@@ -11,7 +11,10 @@ import { arcCenter, type Snap } from './measuring';
 import { PathLines } from './path_lines';
 import { codeOf, type Role } from './scene';
 import { SceneModel } from './scene_model';
+import type { StockMode } from './stock_colors';
 import { StockModel } from './stock_model';
+import type { Section, StockHit } from './stock_ray';
+import { stlOf } from './stock_stl';
 import { StockTimeline } from './stock_timeline';
 import { Kind, type Steps, type Toolpath, type Vector } from './toolpath';
 
@@ -47,6 +50,8 @@ export class ToolpathView {
   onPick: (hit: Hit | null) => void = () => {};
   /** Somebody clicked the mark of a contact. */
   onContact: (contact: number) => void = () => {};
+  /** Somebody clicked the stock, where this line has cut it. */
+  onCut: (line: number) => void = () => {};
   /** While it measures: a place has been clicked; null is none. */
   onSnap: (snap: Snap | null) => void = () => {};
   /** While it measures: the pointer is at a place; null is none. */
@@ -72,6 +77,8 @@ export class ToolpathView {
   private stockKnown: Box | null = null;
   /** The stock that is cut, where it has been recorded. */
   private cutStock: StockModel | null = null;
+  private stockMode: StockMode = 'tool';
+  private section: Section | null = null;
   private surroundings: SceneModel | null = null;
   private readonly measure = new MeasureModel();
   private isMeasuring = false;
@@ -110,6 +117,7 @@ export class ToolpathView {
     this.shown = { ...shown };
     this.background = palettes[theme].background;
     this.renderer = new THREE.WebGLRenderer({ antialias: true });
+    this.renderer.localClippingEnabled = true;
     const canvas = this.renderer.domElement;
     container.append(canvas);
     this.center = new THREE.Vector3(...path.min).add(new THREE.Vector3(...path.max)).multiplyScalar(0.5);
@@ -206,6 +214,37 @@ export class ToolpathView {
     this.mode = mode;
     this.paint();
     this.invalidate();
+  }
+
+  colorStockBy(mode: StockMode): void {
+    this.stockMode = mode;
+    this.cutStock?.colorBy(mode);
+    this.invalidate();
+  }
+
+  /** Leaves out what of the stock is on one side of a plane; null leaves out nothing. */
+  cutOff(section: Section | null): void {
+    this.section = section;
+    this.cutStock?.cutOff(section);
+    this.invalidate();
+  }
+
+  /** The side of an axis on which one stands: what is there hides what is behind. */
+  sideOf(axis: 0 | 1 | 2): 1 | -1 {
+    return this.camera.position.clone().sub(this.controls.target).getComponent(axis) < 0 ? -1 : 1;
+  }
+
+  /** The stock at the moment as a binary STL file, in parts; null where there is none. */
+  stl(): Uint8Array<ArrayBuffer>[] | null {
+    return this.cutStock && stlOf(this.cutStock.timeline.dexels, this.cutStock.facts);
+  }
+
+  /** What is seen, as a PNG file. */
+  async picture(): Promise<Blob | null> {
+    do this.draw();
+    while (this.cutStock && this.shown.stock && this.cutStock.lastUpdate.isMore);
+    // The canvas is empty once this task is over.
+    return new Promise((done) => this.canvas.toBlob(done, 'image/png'));
   }
 
   /** Whether the scene has bodies of a role. */
@@ -536,7 +575,9 @@ export class ToolpathView {
     const { facts, cuts } = this.path;
     if (facts.stock && cuts.length > 0) {
       try {
-        this.cutStock = new StockModel(new StockTimeline(facts.stock, cuts), this.theme);
+        this.cutStock = new StockModel(new StockTimeline(facts.stock, cuts), this.path, this.theme);
+        this.cutStock.colorBy(this.stockMode);
+        this.cutStock.cutOff(this.section);
         this.world.add(this.cutStock.object);
       } catch (problem) {
         // The path is shown all the same, with the blank.
@@ -575,8 +616,42 @@ export class ToolpathView {
       return;
     }
     const contact = this.contactAt(x, y, reach);
-    if (contact === null) this.onPick(this.pick(x, y, reach));
-    else this.onContact(contact);
+    if (contact !== null) return this.onContact(contact);
+    const hit = this.pick(x, y, reach);
+    const cut = this.stockAt(x, y);
+    if (!cut || (hit && !this.isHidden(this.placeOn(hit), cut))) this.onPick(hit);
+    else if (cut.line >= 0) this.onCut(cut.line);
+  }
+
+  /** The stock that a place on the canvas shows. */
+  private stockAt(x: number, y: number): StockHit | null {
+    if (!this.cutStock || !this.shown.stock) return null;
+    const { ray } = this.rayAt(x, y);
+    return this.cutStock.hit(ray.origin.add(this.center), ray.direction);
+  }
+
+  private rayAt(x: number, y: number): THREE.Raycaster {
+    const ray = new THREE.Raycaster();
+    const { clientWidth, clientHeight } = this.container;
+    this.camera.updateMatrixWorld();
+    ray.setFromCamera(new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
+    return ray;
+  }
+
+  private placeOn({ point, part }: Hit): Vector {
+    const [from, to] = [this.path.tipOf(Math.max(point - 1, 0)), this.path.tipOf(point)];
+    return to.map((value, i) => from[i] + part * (value - from[i])) as Vector;
+  }
+
+  /** Whether the stock hides a place of the path, and is not merely as near as a place that is pointed at. */
+  private isHidden(place: Vector, { at }: StockHit): boolean {
+    const direction = this.camera.getWorldDirection(new THREE.Vector3());
+    const behind = new THREE.Vector3(...place).sub(new THREE.Vector3(...at)).dot(direction);
+    return behind > 0.5 + (2 * near) / this.pixelsPerMillimeter;
+  }
+
+  private get pixelsPerMillimeter(): number {
+    return (this.camera.zoom * Math.max(1, this.container.clientHeight)) / this.size;
   }
 
   /** The contact whose mark is nearest there. */
@@ -605,17 +680,15 @@ export class ToolpathView {
   private snapAnywhere(x: number, y: number, reach: number): Snap | null {
     const hit = this.pick(x, y, reach);
     const { path } = this;
-    if (hit) {
-      const [from, to] = [path.tipOf(hit.point - 1), path.tipOf(hit.point)];
-      const at = to.map((value, i) => from[i] + hit.part * (value - from[i])) as Vector;
-      return { at, kind: 'path', line: path.stepLine[path.pointStep[hit.point]] };
-    }
-    const ray = new THREE.Raycaster();
-    const { clientWidth, clientHeight } = this.container;
-    ray.setFromCamera(new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
+    const cut = this.stockAt(x, y);
+    if (hit && !(cut && this.isHidden(this.placeOn(hit), cut)))
+      return { at: this.placeOn(hit), kind: 'path', line: path.stepLine[path.pointStep[hit.point]] };
+    const ray = this.rayAt(x, y);
     this.world.updateMatrixWorld();
     const found = this.surroundings?.hit(ray);
-    return found ? { at: found.at.add(this.center).toArray(), kind: 'surface', body: found.body } : null;
+    const isBody = found && !(cut && cut.distance < found.at.distanceTo(ray.ray.origin));
+    if (isBody) return { at: found.at.add(this.center).toArray(), kind: 'surface', body: found.body };
+    return cut && { at: this.cutStock!.placeOf(cut), kind: 'stock', ...(cut.line >= 0 && { line: cut.line }) };
   }
 
   private bodyPoints(): Snap[] {

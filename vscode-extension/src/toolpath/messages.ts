@@ -26,5 +26,7 @@ export type ToPanel =
   /** The page has not got what `previousResultId` names. */
   | { type: 'resend' }
   | { type: 'picked'; line: number }
+  /** Somebody wants to keep a file; the name is one to begin with. */
+  | { type: 'save'; name: string; content: Uint8Array }
   /** The tool has come to a line while the time runs. */
   | { type: 'passing'; line: number };

@@ -160,6 +160,26 @@ class ToolpathPanel implements vscode.Disposable {
         return this.revealLine(message.line);
       case 'passing':
         return this.mark(message.line);
+      case 'save':
+        return void this.save(message.name, message.content);
+    }
+  }
+
+  /** Beside the program, unless somebody chooses another place. */
+  private async save(name: string, content: Uint8Array): Promise<void> {
+    const folder = this.document && vscode.Uri.joinPath(this.document.uri, '..');
+    // The name comes from a page, and is a name alone.
+    const plain = name.replace(/[\\/]/g, '_');
+    const ending = plain.split('.').pop() ?? '';
+    const target = await vscode.window.showSaveDialog({
+      ...(folder && this.document?.uri.scheme !== 'untitled' && { defaultUri: vscode.Uri.joinPath(folder, plain) }),
+      filters: { [ending.toUpperCase()]: [ending] },
+    });
+    if (!target) return;
+    try {
+      await vscode.workspace.fs.writeFile(target, content);
+    } catch (error) {
+      void vscode.window.showErrorMessage(vscode.l10n.t('{0} could not be written: {1}', nameOf(target), (error as Error).message));
     }
   }
 

@@ -68,6 +68,10 @@ class Page {
     const panel = new Panel(path, language, themeOf(document.body));
     panel.setTheme(themeOf(document.body), backgroundOf(document.body));
     panel.onPick = (line) => this.editor.postMessage({ type: 'picked', line });
+    // A page in an editor cannot download.
+    panel.onSave = (name, content) => {
+      void content.arrayBuffer().then((bytes) => this.editor.postMessage({ type: 'save', name, content: new Uint8Array(bytes) }));
+    };
     panel.onLine = (line) => {
       if (panel.player.isPlaying) this.editor.postMessage({ type: 'passing', line });
     };
