@@ -206,7 +206,8 @@ M02
   };
   const target = [];
   for (let row = 0; row < rows; ++row) for (let column = 0; column < columns; ++column) target.push([1, part(column + 0.5, row + 0.5)]);
-  const cuts = encoded({ blank: [[columns * rows, [[blank, 0]]]], target, moments });
+  const stream = { blank: [[columns * rows, [[blank, 0]]]], target, moments };
+  const cuts = encoded(stream);
   const removed = [
     { line: 2, volume: 1024, depth: 4, width: 16 },
     { line: 3, volume: 4480, depth: 4, width: 16 },
@@ -233,5 +234,5 @@ M02
     travel: [[null, null], [null, null], [null, null], [null, null], [null, null]],
     stock,
   };
-  return { facts, moves, program, cuts };
+  return { facts, moves, program, stream, cuts };
 })();

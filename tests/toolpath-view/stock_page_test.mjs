@@ -4,7 +4,8 @@ import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { openBrowser } from './browser.mjs';
 import { freshPage, recordingOf } from './run.mjs';
-import { panel } from './stock.mjs';
+import { program, sceneRecording } from './scene.mjs';
+import { encoded, panel, stockFacts } from './stock.mjs';
 
 const { open, close, drawn, keep, problems } = await openBrowser();
 
@@ -235,6 +236,23 @@ test('all is named for those who hear it, and in the help', async () => {
   await page.keyboard.press('Escape');
 });
 
+test('stock on a table rests with the path, and stock beside it turns with the machine', async () => {
+  const { facts, ...streams } = sceneRecording('table');
+  for (const onTable of [true, false]) {
+    const stock = stockFacts(20, 20, { onTable });
+    const cuts = encoded({ blank: [[400, [[10_000, 0]]]], moments: [] });
+    const turned = await open(await freshPage(`table ${onTable}`, { ...streams, facts: { ...facts, stock }, cuts }, program));
+    // B is at 90 degrees: as seen from the table, what rests is turned about the B axis at Z-50.
+    await turned.evaluate(() => globalThis.isocnc.player.seek(4));
+    const { min, max } = await turned.evaluate(() => globalThis.isocnc.view.stockModel.bounds());
+    const corners = [min.x, min.y, min.z, max.x, max.y, max.z].map(Math.round);
+    assert.deepEqual(corners, onTable ? [0, 0, 0, 20, 20, 10] : [50, 0, -70, 60, 20, -50]);
+    // The blank of the scene makes room.
+    assert.equal(await turned.evaluate(() => globalThis.isocnc.view.sceneModel.parts.find(({ body }) => body.role === 'stock').mesh.visible), false);
+    await turned.context().close();
+  }
+});
+
 test('in the dark, in Italian', async () => {
   const italian = { ...recording, facts: { ...recording.facts, language: 'it' } };
   const dark = await open(await freshPage('pannello', italian, panel.program), { colorScheme: 'dark' });
@@ -253,9 +271,7 @@ test('in the dark, in Italian', async () => {
 });
 
 test('a recording without a stock, and one whose stock is damaged, show the path', async () => {
-  const { stock: _, ...facts } = panel.facts;
-  const { cuts: __, ...bare } = recording;
-  const old = await open(await freshPage('old', { ...bare, facts }, panel.program));
+  const old = await open(await freshPage('old', { ...recording, cuts: undefined, facts: { ...panel.facts, stock: undefined } }, panel.program));
   assert.equal(await old.evaluate(() => globalThis.isocnc.view.stockModel), null);
   assert.equal(await old.locator('#stock').isVisible(), false);
   assert.equal(await old.locator('#save-picture').isVisible(), true);

@@ -51,13 +51,13 @@ function pageFile() {
 }
 
 /** A message to the page as the panel sends it; data in base64. */
-export const wholePath = (resultId, { facts, steps, points, turns }, language = 'en') => ({
+export const wholePath = (resultId, { facts, steps, points, turns, cuts }, language = 'en') => ({
   type: 'path',
   resultId,
   previousResultId: null,
   facts,
   language,
-  patches: { steps: { data: steps }, points: { data: points }, turns: { data: turns } },
+  patches: { steps: { data: steps }, points: { data: points }, turns: { data: turns }, ...(cuts && { cuts: { data: cuts } }) },
 });
 
 /** The page, and a browser to be closed. */

@@ -3,7 +3,9 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+import { recordingOf as recordingOfMoves } from '../toolpath-view/run.mjs';
 import { contacts, sceneRecording } from '../toolpath-view/scene.mjs';
+import { encoded, panel } from '../toolpath-view/stock.mjs';
 import { viewModule } from './modules.mjs';
 import { openPage, recordingOf, postMessage, wholePath, without } from './page.mjs';
 
@@ -182,6 +184,48 @@ test('it shows what surrounds a program, and leads to the line of a contact', sh
   await post({ ...wholePath('bare', recordingOf(square(200))), program: 'bare' });
   assert.equal(await page.locator('#verification').isVisible(), false);
   assert.equal(await page.evaluate(() => globalThis.isocnc.view.sceneModel), null);
+});
+
+test('it cuts the stock, leads to the line that has cut it, and hands files to the editor', shown, async () => {
+  await page.setViewportSize({ width: 1000, height: 800 });
+  const { facts, ...streams } = { ...recordingOfMoves(panel.facts, panel.moves), cuts: panel.cuts };
+  const base64 = (bytes) => Buffer.from(bytes).toString('base64');
+  const data = Object.fromEntries(Object.entries(streams).map(([name, bytes]) => [name, base64(bytes)]));
+  await post({ ...wholePath('cut', { facts, ...data }), program: 'cut' });
+  const pocket = () => page.evaluate(() => globalThis.isocnc.view.stockModel.timeline.dexels.tops[80 * 200 + 50]);
+  await post({ type: 'pose', line: 4, tip: [90, 20, 8], b: 0, c: 0, seconds: 5 });
+  assert.equal(await pocket(), 18_000);
+  await post({ type: 'pose', line: 6, tip: [20, 90, 30], b: 0, c: 0, seconds: 8 });
+  assert.equal(await pocket(), 8000);
+  await page.getByRole('button', { name: 'Top', exact: true }).click();
+  await drawn();
+  await said();
+  await page.locator('#stage').click({ position: await page.evaluate(() => globalThis.isocnc.view.project([80, 85, 8])) });
+  assert.deepEqual(await said(), [{ type: 'picked', line: 5 }]);
+  if (process.env.ISOCNC_SCREENSHOTS) await page.screenshot({ path: join(process.env.ISOCNC_SCREENSHOTS, 'page-stock.png') });
+
+  for (const [key, name, start] of [['o', 'panel.stl', 'ISOCNC'], ['p', 'panel.png', '\x89PNG']]) {
+    await page.locator('#stage').focus();
+    await page.keyboard.press(key);
+    await page.waitForFunction(() => globalThis.said.some(({ type }) => type === 'save'));
+    const [{ content, ...message }] = await page.evaluate(() =>
+      globalThis.said.splice(0).map((each) => ({ ...each, content: String.fromCharCode(...each.content.slice(0, 6)) })));
+    assert.deepEqual(message, { type: 'save', name });
+    assert.ok(content.startsWith(start), content);
+  }
+
+  // An edit after which the last moment is missing, and one after which nothing is cut.
+  const same = (bytes) => ({ start: bytes.length, removed: 0, data: '' });
+  const unchanged = { steps: same(streams.steps), points: same(streams.points), turns: same(streams.turns) };
+  const shorter = encoded({ ...panel.stream, moments: panel.stream.moments.slice(0, -1) });
+  const moments = () => page.evaluate(() => globalThis.isocnc.view.stockModel?.timeline.momentCount);
+  assert.equal(await moments(), 6);
+  const patch = { start: shorter.length, removed: panel.cuts.length - shorter.length, data: '' };
+  await post({ type: 'path', program: 'cut', resultId: 'less', previousResultId: 'cut', facts, language: 'en', patches: { ...unchanged, cuts: patch } });
+  assert.equal(await moments(), 5);
+  await post({ type: 'path', program: 'cut', resultId: 'none', previousResultId: 'less', facts: { ...facts, stock: undefined }, language: 'en', patches: unchanged });
+  assert.equal(await moments(), undefined);
+  assert.equal(await page.locator('#stock').isVisible(), false);
 });
 
 test('nothing has gone wrong', shown, () => assert.deepEqual(problems, []));
