@@ -45,7 +45,10 @@ RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& 
   open(outputs.stock_out, stock_file_);
   const plot::PlotSubject& subject = outputs.subject;
   if (subject.scene) verifier_.emplace(*subject.scene, machine, subject.origin, work_together, outputs.material);
-  if (const auto format = plot::plot_format(outputs.plot)) plot_.emplace(*format, outputs.subject, machine);
+  const auto format = plot::plot_format(outputs.plot);
+  if (format) plot_.emplace(*format, outputs.subject, machine);
+  if (format == plot::PlotFormat::Html && verifier_ && verifier_->material())
+    plot::record(*verifier_->material(), cuts_);
   last_sample_.tip = timing_.tip();
   last_sample_.joints = timing_.joints();
 }
@@ -167,7 +170,7 @@ void RunReport::finish(const running::RunResult& result, const verification::Ver
     close(*stock_file_, outputs_.stock_out);
   }
   if (plot_) {
-    plot_->write(*plot_file_, {result, verified});
+    plot_->write(*plot_file_, {result, verified, cuts_ ? &*cuts_ : nullptr});
     close(*plot_file_, outputs_.plot);
   }
   close(standard_output_, "<stdout>");

@@ -75,7 +75,8 @@ class RunReport {
   std::optional<system::OutputFile> stock_file_;
   std::optional<system::OutputFile> plot_file_;
   std::optional<plot::Plot> plot_;
-  std::uint64_t next_sample_ = 0;  ///< In units of sample_seconds.
+  std::optional<plot::StockRecording> cuts_;  ///< For a page.
+  std::uint64_t next_sample_ = 0;             ///< In units of sample_seconds.
   motion::Sample last_sample_;
   simulation::Timing timing_;
   simulation::RunFindings findings_;

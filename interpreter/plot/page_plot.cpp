@@ -29,6 +29,7 @@ void PagePlot::write(system::OutputFile& output, const Toolpath& path, const Plo
   block("steps", kBytes, base64(recording_.steps()));
   block("points", kBytes, base64(recording_.points()));
   block("turns", kBytes, base64(recording_.turns()));
+  if (run.cuts) block("cuts", kBytes, base64(run.cuts->bytes()));
   block("program", kBytes, base64(subject_.program));
   output.write(page.substr(data + kPageData.size()));
 }

@@ -117,6 +117,8 @@ std::string PathRecording::facts(const Toolpath& path, const PlottedRun& run) co
   if (subject_.scene) json["scene"] = scene_facts(*subject_.scene, machine_.motion.kinematics, subject_.origin);
   if (run.verified.certificate) {
     json["contacts"] = contact_facts(run.verified, subject_.language);
+    if (run.cuts && run.verified.material)
+      json["stock"] = stock_facts(*run.cuts, *run.verified.material, *subject_.scene, machine_.motion.kinematics);
     json["certificate"] = in_words(*run.verified.certificate, subject_.language);
   }
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);

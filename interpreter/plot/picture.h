@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/plot/stock_recording.h"
 #include "interpreter/plot/toolpath.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/system/output_file.h"
@@ -38,6 +39,7 @@ struct PlotSubject {
 struct PlottedRun {
   const running::RunResult& result;
   const verification::VerifiedRun& verified;
+  StockRecording* cuts = nullptr;  ///< How the stock was cut; null if there is none.
 };
 
 /// A drawing of a path in one format.

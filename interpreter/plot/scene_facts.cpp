@@ -139,9 +139,36 @@ OrderedJson scene_facts(const verification::Scene& scene, const kinematics::Kine
   return json;
 }
 
+/// As exactly as a reader can see.
+static double rounded(double value) { return std::round(value * 1000) / 1000; }
+
+OrderedJson stock_facts(const StockRecording& cuts, const verification::MaterialReport& material,
+                        const verification::Scene& scene, const kinematics::Kinematics& kinematics) {
+  const stock::DexelGrid& grid = cuts.grid();
+  const Vec3 first = Vec3(grid.first.x(), grid.first.y(), 0) + material.origin;
+  OrderedJson json = {{"first", OrderedJson::array({first.x(), first.y()})},
+                      {"spacing", OrderedJson::array({grid.spacing.x(), grid.spacing.y()})},
+                      {"columns", grid.columns},
+                      {"rows", grid.rows},
+                      {"onTable", kinematics.kind == kinematics::MachineKind::Table},
+                      {"hasTarget", cuts.has_target()},
+                      {"tolerance", scene.target_tolerance},
+                      {"volume", material.stock.volume()},
+                      {"blankVolume", material.blank_volume},
+                      {"resolution", material.stock.spacing()},
+                      {"removed", OrderedJson::array()}};
+  for (const removal::RemovedByLine& each : material.by_line)
+    json["removed"].push_back({{"line", each.line},
+                               {"volume", rounded(each.removed.volume)},
+                               {"depth", rounded(each.removed.depth)},
+                               {"width", rounded(each.removed.width)}});
+  return json;
+}
+
 OrderedJson contact_facts(const verification::VerifiedRun& run, dialect::Language language) {
   OrderedJson json = OrderedJson::array();
   for (const verification::Contact& contact : run.contacts) {
+    if (contact.is_hint()) continue;
     const dialect::DiagnosticDef& def = dialect::definition(contact.id);
     json.push_back({{"code", def.code},
                     {"severity", dialect::severity_name(def.severity, dialect::Language::English)},

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interpreter/kinematics/machine.h"
+#include "interpreter/plot/stock_recording.h"
 #include "interpreter/verification/verified_run.h"
 
 namespace isocnc::plot {
@@ -15,6 +16,12 @@ namespace isocnc::plot {
 /// is the table that turns, or else the machine. `origin` is that of the first workpiece frame.
 nlohmann::ordered_json scene_facts(const verification::Scene& scene, const kinematics::Kinematics& kinematics,
                                    const geometry::Vec3& origin);
+
+/// How the stock is cut, for a view: the grid of the picture in machine coordinates, and what each line has removed;
+/// `{"first", "spacing", "columns", "rows", "onTable", "hasTarget", "tolerance", "volume", "blankVolume", "resolution",
+/// "removed": [{"line", "volume", "depth", "width"}]}`: lines from 0, mm, mm^3.
+nlohmann::ordered_json stock_facts(const StockRecording& cuts, const verification::MaterialReport& material,
+                                   const verification::Scene& scene, const kinematics::Kinematics& kinematics);
 
 /// The contacts and near misses of a run, `[{"code", "severity", "line", "endLine", "time", "endTime", "tool", "who",
 /// "whom", "point", "distance", "message"}]`: lines from 1; mm, seconds; points in the machine frame with all joints

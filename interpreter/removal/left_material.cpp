@@ -59,7 +59,7 @@ class Comparison {
         tolerance_(tolerance),
         // The wall of the target is somewhere between two dexels.
         reach_(tolerance + 0.75 * stock.spacing()),
-        margin_(std::clamp(static_cast<int>(std::ceil(reach_ / stock.grid().spacing.minCoeff())), 1, kMaxMargin)) {}
+        margin_(std::clamp(static_cast<int>(std::ceil(reach_ / stock.grid().spacing.minCoeff())), 1, kMaxMargin) + 1) {}
 
   std::vector<Run> runs() {
     const int inner = Tile::kSize - 2 * margin_;
@@ -156,30 +156,48 @@ class Comparison {
       run.region.height = height;
       run.region.point = {grid.x(column), grid.y(row), left.back().top};
     }
-    const Tile& tile = stock_.tile({column / Tile::kSize, row / Tile::kSize});
-    if (const auto tag = tile.cut_by(row % Tile::kSize, column % Tile::kSize))
-      run.region.last_cut = std::max(run.region.last_cut.value_or(0), *tag);
+    note_last_cut(row, column, run.region);
     run.is_on_target = run.is_on_target || hangs_on_target(row, column, r, c, target_at);
   }
 
-  /// Whether this dexel, or one beside it, has stock within the target, in one piece with what is here.
+  /// Whether this dexel, or one as near as the margin, has stock within the target, in one piece with what is here.
   template <class TargetAt>
   bool hangs_on_target(int row, int column, int r, int c, const TargetAt& target_at) const {
-    static constexpr int kSteps[][2] = {{0, 0}, {0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+    static constexpr int kDirections[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
     const Intervals own = intervals_of(row, column);
-    for (const auto& [dr, dc] : kSteps) {
-      if (row + dr < 0 || column + dc < 0 || row + dr >= stock_.grid().rows || column + dc >= stock_.grid().columns)
-        continue;
-      for (const HeightInterval& beside : intervals_of(row + dr, column + dc)) {
-        const bool is_joined = std::any_of(own.begin(), own.end(), [&](const HeightInterval& each) {
-          return each.bottom < beside.top && beside.bottom < each.top;
-        });
-        if (!is_joined) continue;
-        for (const HeightInterval& each : target_at(r + dr, c + dc))
-          if (each.bottom < beside.top && beside.bottom < each.top) return true;
+    if (overlap(own, target_at(r, c))) return true;
+    for (const auto& [dr, dc] : kDirections) {
+      Intervals joined = own;
+      for (int step = 1; step <= margin_ && !joined.empty(); ++step) {
+        if (!is_inside(row + step * dr, column + step * dc)) break;
+        Intervals beside = intervals_of(row + step * dr, column + step * dc);
+        std::erase_if(beside, [&](const HeightInterval& each) { return !overlap({each}, joined); });
+        if (overlap(beside, target_at(r + step * dr, c + step * dc))) return true;
+        joined = std::move(beside);
       }
     }
     return false;
+  }
+
+  static bool overlap(const Intervals& some, const Intervals& others) {
+    return std::any_of(some.begin(), some.end(), [&](const HeightInterval& one) {
+      return std::any_of(others.begin(), others.end(),
+                         [&](const HeightInterval& other) { return one.bottom < other.top && other.bottom < one.top; });
+    });
+  }
+  bool is_inside(int row, int column) const {
+    return row >= 0 && column >= 0 && row < stock_.grid().rows && column < stock_.grid().columns;
+  }
+
+  /// Also cuts beside a dexel were near it.
+  void note_last_cut(int row, int column, LeftRegion& region) const {
+    static constexpr int kSteps[][2] = {{0, 0}, {0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+    for (const auto& [dr, dc] : kSteps) {
+      if (!is_inside(row + dr, column + dc)) continue;
+      const Tile& tile = stock_.tile({(column + dc) / Tile::kSize, (row + dr) / Tile::kSize});
+      if (const auto tag = tile.cut_by((row + dr) % Tile::kSize, (column + dc) % Tile::kSize))
+        region.last_cut = std::max(region.last_cut.value_or(0), *tag);
+    }
   }
 
   const Stock& stock_;

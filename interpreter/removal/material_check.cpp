@@ -27,6 +27,11 @@ static constexpr int kHalvings = 16;
 
 /// What a cut may leave standing beside its body, mm: a tenth of the spacing by the pieces of curved paths, and a
 /// little for rounding.
+/// Seconds between the moments at which a watcher is asked first.
+static constexpr double kShortestMoment = 0.05;
+/// Where nothing is cut, that many of these are left out at once.
+static constexpr double kMaxMomentsApart = 10;
+
 static double skin_of(double spacing) { return spacing / 8 + 0.002; }
 
 MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine& machine, stock::Workers workers)
@@ -69,12 +74,50 @@ void MaterialCheck::take(const motion::Stretch& stretch, const simulation::Timed
   pieces_.clear();
   append_tip_paths(machine_.motion.kinematics, stretch.path, begin, end, forms_->reach(), stock_.spacing() / 40,
                    pieces_);
+  if (watcher_) show_moments(stretch);
   for (TipPath& piece : pieces_) {
     waiting_.back().length += length_of(piece.path);
     piece.path = moved(std::move(piece.path), -workpiece_.origin);
     append_sweeps(piece, is_feed);
   }
   if (waiting_.size() == kBatch) cut_waiting();
+}
+
+/// Shows the moments before the last stretch that waits, and those within it. What is cut up to a moment within it is
+/// cut from a copy, so that the stock itself does not depend on when somebody looks.
+void MaterialCheck::show_moments(const motion::Stretch& stretch) {
+  const double end = stretch.start + stretch.duration;
+  if (next_moment_ > end) return;
+  const WaitingStretch last = std::move(waiting_.back());
+  waiting_.pop_back();
+  const std::vector<TipPath> pieces = pieces_;
+  cut_waiting();
+  for (; next_moment_ <= end; has_cuts_to_show_ = false) {
+    const double moment = next_moment_;
+    Stock partial = stock_;
+    bool is_cut = has_cuts_to_show_;
+    if (moment > stretch.start && forms_->cutter()) {
+      pieces_.clear();
+      append_tip_paths(machine_.motion.kinematics, stretch.path, stretch.phases[0].from, stretch.parameter_at(moment),
+                       forms_->reach(), stock_.spacing() / 40, pieces_);
+      for (const TipPath& piece : pieces_) {
+        const Sweep sweep{.body = forms_->cutter(),
+                          .path = moved(piece.path, -workpiece_.origin),
+                          .tag = static_cast<stock::CutTag>(last.line)};
+        if (may_meet(*sweep.body, sweep.path)) is_cut = partial.apply({&sweep, 1}).front().meets() || is_cut;
+      }
+    }
+    if (is_cut) {
+      next_moment_ = std::max(watcher_(partial, moment), std::nextafter(moment, HUGE_VAL));
+    } else {
+      // Nothing to see before the end of the stretch.
+      next_moment_ = std::max(moment + kShortestMoment, std::min(end, moment + kShortestMoment * kMaxMomentsApart));
+    }
+  }
+  waiting_.push_back(last);
+  if (frames_.empty()) frames_.push_back(last_frame_);
+  waiting_.back().frame = frames_.size() - 1;
+  pieces_ = pieces;
 }
 
 void MaterialCheck::append_sweeps(const TipPath& piece, bool is_feed) {
@@ -181,6 +224,7 @@ void MaterialCheck::cut_waiting() {
     }
     look_closely(before);
   }
+  has_cuts_to_show_ = has_cuts_to_show_ || std::find(has_cut.begin(), has_cut.end(), true) != has_cut.end();
   note_ways(has_cut);
   cut_ += waiting_.size();
   waiting_.clear();
@@ -535,6 +579,7 @@ void MaterialCheck::look_for_loose_pieces() {
 
 void MaterialCheck::finish() {
   cut_waiting();
+  if (watcher_ && has_cuts_to_show_) watcher_(stock_, last_time_);
   close_all();
   look_for_loose_pieces();
   std::stable_sort(incidents_.begin(), incidents_.end(),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -21,6 +22,12 @@ class MaterialCheck {
  public:
   /// Refers to the machine.
   MaterialCheck(Workpiece workpiece, const simulation::TimedMachine& machine, stock::Workers workers = {});
+
+  /// Called with the stock of a moment, and its time; returns the time of the next moment, seconds. Nothing is asked
+  /// where nothing has been cut.
+  using Watcher = std::function<double(const stock::Stock& stock, double time)>;
+  /// From now on, `watcher` sees the stock, also within motions. What is found stays the same.
+  void watch(Watcher watcher) { watcher_ = std::move(watcher); }
 
   /// Another tool is mounted.
   void mount(const execution::ToolCode& code, const CuttingTool& tool);
@@ -85,6 +92,7 @@ class MaterialCheck {
   };
   using EpisodeKey = std::pair<IncidentKind, ToolPart>;
 
+  void show_moments(const motion::Stretch& stretch);
   void append_sweeps(const TipPath& piece, bool is_feed);
   void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role, double height = 0);
   bool may_meet(const solids::RevolvedBody& body, const stock::SweepPath& path) const;
@@ -136,6 +144,9 @@ class MaterialCheck {
   std::vector<Incident> incidents_;
   std::size_t left_out_ = 0;
   std::optional<Incident> way_;  ///< Feed motions that have met nothing so far.
+  Watcher watcher_;
+  double next_moment_ = 0;
+  bool has_cuts_to_show_ = false;
   std::vector<RemovedByTool> by_tool_;
   std::vector<RemovedByLine> by_line_;
   std::vector<solids::BoundingBox> loose_;  ///< Where pieces have come free.

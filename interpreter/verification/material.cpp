@@ -49,6 +49,10 @@ std::optional<removal::Workpiece> workpiece_of(const Scene& scene, const geometr
   workpiece.spacing = options.resolution ? *options.resolution
                       : scene.resolution ? *scene.resolution
                                          : usual_spacing(workpiece.blank);
+  if (options.max_dexels) {
+    const Eigen::Vector3d sizes = stock::bounds_of(workpiece.blank).sizes();
+    workpiece.spacing = std::max(workpiece.spacing, std::sqrt(sizes.x() * sizes.y() / *options.max_dexels));
+  }
   workpiece.clearance = scene.clearance;
   workpiece.longest_air_cut = kLongestAirCut;
   workpiece.tolerance = scene.target_tolerance;

@@ -13,6 +13,7 @@ namespace isocnc::verification {
 struct MaterialOptions {
   bool is_cut = true;                ///< Otherwise nothing is asked about material.
   std::optional<double> resolution;  ///< Spacing of the dexels, mm; outweighs that of the setup.
+  std::optional<double> max_dexels;  ///< Makes the spacing coarser, so that there are not more.
 };
 
 /// The memory that a stock may take, bytes.

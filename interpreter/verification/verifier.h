@@ -36,6 +36,7 @@ class Verifier {
   const Certificate& certificate() const { return certificate_; }
   /// After finish(). Null if the scene describes no stock, or it does not fit the memory.
   const removal::MaterialCheck* material() const { return material_ ? &*material_ : nullptr; }
+  removal::MaterialCheck* material() { return material_ ? &*material_ : nullptr; }
 
  private:
   /// A stretch that waits for being examined.

@@ -25,7 +25,11 @@ struct SentPath {
   std::string steps;
   std::string points;
   std::string turns;
+  std::string cuts;  ///< Empty where no stock is cut.
 };
+
+/// A picture that follows each edit shows a blank by so many dexels.
+constexpr double kMaxDexels = 250'000;
 
 /// The last recording sent, shared by the background requests.
 struct LastSent {
@@ -71,10 +75,13 @@ struct ToolpathTask {
 std::string ToolpathTask::compute(const std::function<bool()>& stop) {
   const simulation::TimedMachine& machine = program.machine().timed;
   std::optional<verification::Verifier> verifier;
+  std::optional<plot::StockRecording> cuts;
   subject.scene = program.scene();
   if (subject.scene) {
     subject.origin = program.workpiece_origin();
-    verifier.emplace(*subject.scene, machine, subject.origin);
+    verifier.emplace(*subject.scene, machine, subject.origin, verification::WorkTogether(),
+                     verification::MaterialOptions{.max_dexels = kMaxDexels});
+    if (verifier->material()) plot::record(*verifier->material(), cuts);
   }
   plot::PathRecording recording(subject, machine);
   plot::Toolpath path(machine, subject.home, [&](const plot::ToolpathStep& step) { recording.add(step); });
@@ -94,7 +101,8 @@ std::string ToolpathTask::compute(const std::function<bool()>& stop) {
   const auto now = std::make_shared<SentPath>(SentPath{.id = 0,
                                                        .steps = std::string(recording.steps()),
                                                        .points = std::string(recording.points()),
-                                                       .turns = std::string(recording.turns())});
+                                                       .turns = std::string(recording.turns()),
+                                                       .cuts = std::string(cuts ? cuts->bytes() : "")});
   std::shared_ptr<const SentPath> before;
   {
     const std::lock_guard lock(last->mutex);
@@ -102,10 +110,13 @@ std::string ToolpathTask::compute(const std::function<bool()>& stop) {
     if (last->path && fmt::to_string(last->path->id) == previous) before = last->path;
     last->path = now;
   }
-  return fmt::format(
-      R"({{"resultId":"{}","version":{},"facts":{},"steps":{},"points":{},"turns":{}}})", now->id, program.version(),
-      recording.facts(path, {result, verified}), stream(now->steps, before ? &before->steps : nullptr),
-      stream(now->points, before ? &before->points : nullptr), stream(now->turns, before ? &before->turns : nullptr));
+  const auto stream_of = [&](std::string SentPath::*member) {
+    return stream((*now).*member, before ? &((*before).*member) : nullptr);
+  };
+  return fmt::format(R"({{"resultId":"{}","version":{},"facts":{},"steps":{},"points":{},"turns":{},"cuts":{}}})",
+                     now->id, program.version(), recording.facts(path, {result, verified, cuts ? &*cuts : nullptr}),
+                     stream_of(&SentPath::steps), stream_of(&SentPath::points), stream_of(&SentPath::turns),
+                     stream_of(&SentPath::cuts));
 }
 
 features::BackgroundRequest begin(const Snapshot& snapshot, const ToolpathParams& params) {
