@@ -55,6 +55,24 @@ test('run() tells what isorun tells', async () => {
   assert.equal((await run(broken)).result, 'error');
 });
 
+test('the machine is asked with the setup and the meshes beside the program', async () => {
+  const setups = join(examples, 'setups');
+  const command = (name) => spawnSync(process.execPath, [join(made, 'bin', `${name}.js`), '--verify', '--lang', 'en', 'broken/trim.iso'], { cwd: setups, encoding: 'utf8' });
+  for (const name of ['isolint', 'isorun']) assert.match(command(name).stdout, /error\[E152\].*\bform\b/, name);
+  const trim = readFileSync(join(setups, 'broken/trim.iso'), 'utf8');
+  const { machine, setups: all } = JSON.parse(readFileSync(join(setups, 'isocnc.json'), 'utf8').replaceAll(/^\s*\/\/.*$/gm, ''));
+  const setup = all.find((each) => each.paths.includes('trim.iso'));
+  delete setup.paths;
+  setup.fixtures.find(({ mesh }) => mesh).mesh = 'stl/form.stl';
+  const files = { 'part.setup.json': JSON.stringify(setup), 'stl/form.stl': readFileSync(join(setups, 'form.stl')) };
+  const options = { configuration: { machine }, filename: 'part.iso', args: ['--verify'] };
+  const codes = async (given) => (await check(trim, { ...options, ...given })).map(({ code }) => code);
+  assert.ok((await codes({ files })).includes('E152'));
+  assert.ok(!(await codes({})).includes('E152')); // Nothing is left behind.
+  await assert.rejects(codes({ files: { 'part.setup.json': files['part.setup.json'] } }), (error) => error instanceof CommandError && /form\.stl/.test(error.message));
+  for (const name of ['../x.stl', '/x.stl', 'a//x.stl', '']) await assert.rejects(codes({ files: { [name]: '' } }), CommandError);
+});
+
 test('calls at the same time load the module once', () => {
   const script = `
     let made = 0;

@@ -1,6 +1,6 @@
 /** The checker, the formatter and the simulated machine for ISOCNC programs, on texts in memory. Works in pages and in Node.js. */
 import makeModule from './glue';
-import type { Module, Program } from './module';
+import type { Files, Module, Program } from './module';
 import { runOnText } from './streams';
 
 export interface Options {
@@ -8,6 +8,8 @@ export interface Options {
   language?: 'en' | 'it';
   /** What an isocnc.json beside the program says: its text, or its value. */
   configuration?: string | object;
+  /** What stands beside the program, by names as the configuration has them: `part.setup.json`, STL files. */
+  files?: Readonly<Record<string, string | Uint8Array>>;
   /** What the program is called in messages; else program.iso. */
   filename?: string;
   /** Further options of the command, as in a shell: `['--select', 'ALL']`. */
@@ -83,6 +85,19 @@ export async function load(wasmBinary?: ArrayBuffer | Uint8Array): Promise<void>
 const home = '/isocnc';
 const trace = '/isocnc.trace';
 
+/** Writes the files of a call into the module's memory, and returns their paths. */
+function place(FS: Files, files: Options['files'] = {}): string[] {
+  const isOutside = (name: string) => name.split('/').some((step) => ['', '.', '..'].includes(step));
+  const outside = Object.keys(files).find(isOutside);
+  if (outside !== undefined) throw new CommandError(`${outside}: not the name of a file beside the program or below`);
+  return Object.entries(files).map(([name, content]) => {
+    const path = `${home}/${name}`;
+    FS.mkdirTree(path.slice(0, path.lastIndexOf('/')));
+    FS.writeFile(path, content);
+    return path;
+  });
+}
+
 /** What the command writes to its standard output, or to a `file`. Calls at the same time run one after another. */
 async function command(program: Program, text: string, options: Options, args: readonly string[], file?: string): Promise<string[]> {
   if (typeof text !== 'string') throw new TypeError('the program is no text');
@@ -94,7 +109,9 @@ async function command(program: Program, text: string, options: Options, args: r
   const own: string[] = ['--lang', options.language ?? 'en'];
   if (configuration === undefined) own.push('--no-config');
   else module.FS.writeFile(`${home}/isocnc.json`, typeof configuration === 'string' ? configuration : JSON.stringify(configuration));
+  const placed = place(module.FS, options.files);
   const { status, output, complaints } = runOnText(module, program, [...args, ...own, ...(options.args ?? []), '-'], text);
+  for (const path of placed) module.FS.unlink(path);
   if (status === 2) throw new CommandError(complaints.trim());
   return file === undefined ? [output] : [output, module.FS.readFile(file, { encoding: 'utf8' })];
 }

@@ -14,8 +14,8 @@ import {
 import * as vscode from 'vscode';
 import { settings } from '../environment';
 import { uriOfPath } from '../files';
-import { configurationsAbove, fileOf, filesOfFolder, watch, type Files } from './files';
-import { messageFromModule, messageToModule } from './names';
+import { changed, configurationsAbove, filesOfFolder, setupBeside, watch, type Files } from './files';
+import { messageFromModule, messageToModule, pathOf } from './names';
 import type { Port, Workers } from './worker';
 
 class Reader extends AbstractMessageReader {
@@ -52,7 +52,7 @@ class Writer extends AbstractMessageWriter {
 export class ModuleClient extends BaseLanguageClient {
   private port: Port | null = null;
   private readonly watched: vscode.Disposable[] = [];
-  /** Folders whose programs have been opened. */
+  /** Programs that have been opened, and their folders. */
   private readonly known = new Set<string>();
   /** The paths of files that the server has got. */
   private readonly sent = new Set<string>();
@@ -68,7 +68,9 @@ export class ModuleClient extends BaseLanguageClient {
         workspace: {
           // The server reads the file anew, which has to be there.
           didChangeWatchedFile: async (event, next) => {
-            this.send(await fileOf(vscode.Uri.parse(event.uri)));
+            const uri = vscode.Uri.parse(event.uri);
+            // Of meshes it reads only those that a file names which it has got.
+            if (this.sent.has(pathOf(uri)) || !uri.path.toLowerCase().endsWith('.stl')) this.send(await changed(uri));
             await next(event);
           },
         },
@@ -91,7 +93,11 @@ export class ModuleClient extends BaseLanguageClient {
     this.port = await this.workers.serve({ server: 'isols' }, (message) => reader.take(message), (message) => reader.fail(message));
     this.send(files);
     this.watched.push(
-      watch(this.endings, (changed) => this.send(changed)),
+      watch(
+        this.endings,
+        (path) => this.sent.has(path),
+        (files) => this.send(files),
+      ),
       vscode.workspace.onDidOpenTextDocument((document) => void this.lookAbove(document)),
       vscode.workspace.onDidChangeWorkspaceFolders(({ added }) => void this.addFolders(added)),
     );
@@ -129,16 +135,18 @@ export class ModuleClient extends BaseLanguageClient {
   }
 
   private async newAbove({ languageId, uri }: vscode.TextDocument): Promise<Files> {
-    const folder = vscode.Uri.joinPath(uri, '..').toString();
-    if (languageId !== 'isocnc' || uri.scheme === 'untitled' || this.known.has(folder)) return {};
-    this.known.add(folder);
-    return configurationsAbove(uri);
+    if (languageId !== 'isocnc' || uri.scheme === 'untitled') return {};
+    const isNew = (place: vscode.Uri) => !this.known.has(place.toString()) && this.known.add(place.toString());
+    const found: Promise<Files>[] = [];
+    if (isNew(vscode.Uri.joinPath(uri, '..'))) found.push(configurationsAbove(uri));
+    if (isNew(uri)) found.push(setupBeside(uri));
+    return Object.assign({}, ...(await Promise.all(found))) as Files;
   }
 
   /** The server may have read the program already, and takes it up again with what has been found. */
   private async lookAbove(document: vscode.TextDocument): Promise<void> {
     const files = await this.newAbove(document);
-    const added = Object.keys(files).filter((path) => !this.sent.has(path));
+    const added = Object.keys(files).filter((path) => files[path] && !this.sent.has(path));
     if (added.length === 0) return;
     this.send(files);
     const changes = added.map((path) => ({ uri: uriOfPath(path).toString(), type: FileChangeType.Created }));

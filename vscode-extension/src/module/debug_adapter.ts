@@ -2,7 +2,7 @@
 import * as vscode from 'vscode';
 import { language } from '../environment';
 import { uriOf, uriOfPath } from '../files';
-import { configurationsAbove, fileOf, type Files } from './files';
+import { changed, configurationsAbove, setupBeside, type Files } from './files';
 import { pathOf, withPaths } from './names';
 import type { Port, Workers } from './worker';
 
@@ -64,7 +64,8 @@ export class ModuleDebugAdapter implements vscode.DebugAdapter {
       if (typeof name !== 'string' || !name) continue;
       const uri = uriOf(name);
       launch[key] = pathOf(uri);
-      files.push(await fileOf(uri), key === 'program' ? await configurationsAbove(uri) : {});
+      files.push(await changed(uri));
+      if (key === 'program') files.push(await configurationsAbove(uri), await setupBeside(uri));
     }
     port.postMessage({ files: Object.assign({}, ...files) as Files });
   }

@@ -1,6 +1,7 @@
 /** Files of the workspace for the module, which sees only those in its own memory. */
 import * as vscode from 'vscode';
 import { nameOf, uriOf, uriOfPath } from '../files';
+import { meshesIn, setupNameOf, setupEnding } from './named_files';
 import { isComplete, pathOf } from './names';
 
 /** By the paths that the module has; null where a file has been removed. */
@@ -10,6 +11,8 @@ const configuration = 'isocnc.json';
 /** What a search for programs looks at beside them. */
 const searched = [configuration, '.gitignore'];
 const skipped = ['.git', 'node_modules'];
+/** Nothing larger is a mesh. */
+const largestMesh = 512 << 20; // Bytes.
 
 async function read(uri: vscode.Uri): Promise<Uint8Array | null> {
   try {
@@ -26,7 +29,44 @@ export async function fileOf(uri: vscode.Uri): Promise<Files> {
 const merged = (all: Files[]): Files => Object.assign({}, ...all) as Files;
 const onlyThere = (files: Files): Files => Object.fromEntries(Object.entries(files).filter(([, content]) => content));
 
-/** The configurations above a file: up to its workspace folder, or in files of this computer up to the root. */
+/** A configuration, however it is called, or a setup. */
+const isDescription = (name: string) => name.toLowerCase().endsWith('.json');
+
+async function typeOf(uri: vscode.Uri): Promise<vscode.FileStat | null> {
+  return Promise.resolve(vscode.workspace.fs.stat(uri)).catch(() => null);
+}
+
+/** A mesh in a folder or below; null for one that is not there. A link might lead to a file that is none of the folder's. */
+async function meshOf(folder: vscode.Uri, steps: readonly string[]): Promise<Files> {
+  const place = (count: number) => vscode.Uri.joinPath(folder, ...steps.slice(0, count));
+  const stats = await Promise.all(steps.map((_, i) => typeOf(place(i + 1))));
+  const isPlain = stats.every((stat, i) => stat?.type === (i + 1 === steps.length ? vscode.FileType.File : vscode.FileType.Directory));
+  const uri = place(steps.length);
+  return isPlain && stats.at(-1)!.size <= largestMesh ? fileOf(uri) : { [pathOf(uri)]: null };
+}
+
+/** Descriptions with the meshes that they name, which the module reads where it verifies a program. */
+async function withMeshes(descriptions: readonly vscode.Uri[]): Promise<Files> {
+  const all = descriptions.map(async (uri) => {
+    const content = await read(uri);
+    const folder = vscode.Uri.joinPath(uri, '..');
+    const meshes = content ? meshesIn(new TextDecoder().decode(content)).map((steps) => meshOf(folder, steps)) : [];
+    return merged([{ [pathOf(uri)]: content }, ...(await Promise.all(meshes))]);
+  });
+  return merged(await Promise.all(all));
+}
+
+/** What has become of a file: of one that describes what surrounds programs, with the meshes that it names. */
+export async function changed(uri: vscode.Uri): Promise<Files> {
+  return isDescription(nameOf(uri)) ? withMeshes([uri]) : fileOf(uri);
+}
+
+/** The setup beside a program, with its meshes. */
+export async function setupBeside(uri: vscode.Uri): Promise<Files> {
+  return onlyThere(await withMeshes([vscode.Uri.joinPath(uri, '..', setupNameOf(nameOf(uri)))]));
+}
+
+/** The configurations above a file, with their meshes: up to its workspace folder, or in files of this computer up to the root. */
 export async function configurationsAbove(uri: vscode.Uri): Promise<Files> {
   const end = uri.scheme === 'file' ? '' : (vscode.workspace.getWorkspaceFolder(uri)?.uri.path.replace(/\/$/, '') ?? '');
   const places: vscode.Uri[] = [];
@@ -34,18 +74,21 @@ export async function configurationsAbove(uri: vscode.Uri): Promise<Files> {
     folder = folder.slice(0, folder.lastIndexOf('/'));
     places.push(uri.with({ path: `${folder}/${configuration}`, query: '', fragment: '' }));
   }
-  return onlyThere(merged(await Promise.all(places.map(fileOf))));
+  return onlyThere(await withMeshes(places));
 }
 
-/** The programs in a folder, and what a search for them looks at. */
+/** Whether a file in a folder is a program, or what a search for programs or their verification looks at. */
+const isWanted = (name: string, endings: readonly string[]) =>
+  searched.includes(name) || name.endsWith(setupEnding) || endings.some((ending) => name.toLowerCase().endsWith(ending));
+
+/** The programs in a folder, and what describes their surroundings. */
 async function filesBelow(folder: vscode.Uri, endings: readonly string[]): Promise<Files> {
-  const isWanted = (name: string) => searched.includes(name) || endings.some((ending) => name.toLowerCase().endsWith(ending));
   const entries = await Promise.resolve(vscode.workspace.fs.readDirectory(folder)).catch(() => []);
   const found = entries.map(async ([name, type]): Promise<Files> => {
     const uri = vscode.Uri.joinPath(folder, name);
     // A link may lead around in a circle.
     if (type === vscode.FileType.Directory) return skipped.includes(name) ? {} : filesBelow(uri, endings);
-    return type & vscode.FileType.File && isWanted(name) ? fileOf(uri) : {};
+    return type & vscode.FileType.File && isWanted(name, endings) ? changed(uri) : {};
   });
   return onlyThere(merged(await Promise.all(found)));
 }
@@ -63,7 +106,7 @@ export async function filesOfArguments(args: readonly string[], folder: string, 
     const uri = uriOf(text);
     const { type } = await Promise.resolve(vscode.workspace.fs.stat(uri)).catch(() => ({ type: vscode.FileType.Unknown }));
     if (type & vscode.FileType.Directory) all.push(await filesOfFolder(uri, endings));
-    else if (type & vscode.FileType.File) all.push(await fileOf(uri), await configurationsAbove(uri));
+    else if (type & vscode.FileType.File) all.push(await changed(uri), await configurationsAbove(uri), await setupBeside(uri));
   }
   const inModule = (text: string) => {
     const path = pathOf(uriOf(text));
@@ -77,12 +120,11 @@ export async function write(files: Record<string, Uint8Array>): Promise<void> {
   for (const [path, content] of Object.entries(files)) await vscode.workspace.fs.writeFile(uriOfPath(path), content);
 }
 
-/** Reports files that the module may look at when they change. */
-export function watch(endings: readonly string[], onChange: (files: Files) => void): vscode.Disposable {
+/** Reports files that the module may look at when they change; `isKnown` tells of a mesh whether one of them names it. */
+export function watch(endings: readonly string[], isKnown: (path: string) => boolean, onChange: (files: Files) => void): vscode.Disposable {
   const watcher = vscode.workspace.createFileSystemWatcher('**/*');
   const look = async (uri: vscode.Uri) => {
-    const name = nameOf(uri);
-    if (searched.includes(name) || endings.some((ending) => name.toLowerCase().endsWith(ending))) onChange(await fileOf(uri));
+    if (isWanted(nameOf(uri), endings) || isKnown(pathOf(uri))) onChange(await changed(uri));
   };
   return vscode.Disposable.from(watcher, watcher.onDidCreate(look), watcher.onDidChange(look), watcher.onDidDelete(look));
 }
