@@ -4,17 +4,16 @@
 #include <cstdlib>
 
 #include "interpreter/solids/advance.h"
-#include "scenes.h"
+#include "tests/solids/expected_bounds.h"
 
 /// Distances and first contacts in random scenes of which the true gap is known by construction.
 namespace isocnc::solids {
 namespace {
 
+using scenes::kSceneError;
 using scenes::Random;
 using scenes::Touch;
 using scenes::Vec3;
-
-constexpr double kTrue = 1e-9;  ///< By so much the construction itself may be off, mm.
 
 /// A placement in line with the obstacle now and then, as most tools stand.
 Vec3 any_axis(Random& random) {
@@ -28,20 +27,7 @@ void expect_known_distance(Random& random, const Obstacle& obstacle) {
   const Touch touch = scenes::any_touch(random, obstacle);
   const double gap = random.one_in(2) ? random.real(-0.1, 0.1) : random.real(0, 200);
   const AxisPlacement at = scenes::placed_at_gap(body, any_axis(random), touch, gap);
-  const Clearance found = clearance(body, at, obstacle);
-  if (gap > kTrue) {
-    ASSERT_LE(found.lower, gap + kTrue);
-    ASSERT_GE(found.upper, gap - kTrue);
-    ASSERT_LE(found.upper - found.lower, 2 * kRounding);
-    ASSERT_NEAR((found.on_body - found.on_obstacle).norm(), gap, 1e-5);
-  } else if (gap < -kTrue) {
-    ASSERT_LT(found.upper, 0);
-    ASSERT_EQ(found.lower, found.upper);
-  }
-  const double sufficient = random.real(0, 300);
-  const Clearance coarse = clearance(body, at, obstacle, sufficient);
-  ASSERT_LE(coarse.lower, std::max(gap, 0.0) + kTrue);
-  ASSERT_TRUE(coarse.lower >= sufficient || coarse.upper - coarse.lower <= 2 * kRounding);
+  scenes::expect_bounds(random, gap, [&](double sufficient) { return clearance(body, at, obstacle, sufficient); });
 }
 
 TEST(ClearanceProperty, BoundsTheKnownDistanceOfBoxes) {
@@ -105,13 +91,13 @@ void expect_known_contact(Random& random, const Obstacle& obstacle) {
       begin, end, [&](double s, double sufficient) { return clearance(body, pass.at(s), obstacle, sufficient); },
       [&](double) { return speed; }, options);
   ASSERT_NE(result.verdict, AdvanceResult::Verdict::Undecided);
-  if (gap < options.contact / 2 - kTrue) {
+  if (gap < options.contact / 2 - kSceneError) {
     ASSERT_EQ(result.verdict, AdvanceResult::Verdict::Contact) << gap;
   }
-  if (gap > options.contact + kTrue) {
+  if (gap > options.contact + kSceneError) {
     ASSERT_EQ(result.verdict, AdvanceResult::Verdict::Clear) << gap;
   }
-  ASSERT_LE(result.proven, gap > 0 && result.verdict == AdvanceResult::Verdict::Clear ? gap + kTrue : kExact);
+  ASSERT_LE(result.proven, gap > 0 && result.verdict == AdvanceResult::Verdict::Clear ? gap + kSceneError : kExact);
   ASSERT_LE(result.evaluations, 2 + speed * (end - begin) / (0.9 * options.contact / 2));
 }
 

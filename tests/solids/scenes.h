@@ -16,6 +16,8 @@ namespace isocnc::solids::scenes {
 using geometry::Vec3;
 using support::Random;
 
+inline constexpr double kSceneError = 1e-9;  ///< By so much the construction of a scene itself may be off, mm.
+
 inline RevolvedBody body(const BodyOrProblem& made) { return std::get<RevolvedBody>(made); }
 
 inline Vec3 any_direction(Random& random) {

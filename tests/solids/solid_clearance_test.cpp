@@ -5,17 +5,17 @@
 #include <limits>
 
 #include "interpreter/solids/clearance.h"
-#include "scenes.h"
+#include "tests/solids/expected_bounds.h"
 
 /// Distances between two solids, one at a placement.
 namespace isocnc::solids {
 namespace {
 
+using scenes::kSceneError;
 using scenes::Random;
 using scenes::Touch;
 using scenes::Vec3;
 
-constexpr double kSceneError = 1e-9;  ///< By so much the construction of a scene itself may be off, mm.
 constexpr double kBoundsAgree = 2 * kRounding;
 
 Placement shifted(double x, double y, double z) {
@@ -131,20 +131,7 @@ void expect_known_distance(Random& random, const Moving& moving, const Obstacle&
   const double gap = random.one_in(2) ? random.real(-0.1, 0.1) : random.real(0, 200);
   const Placement at =
       scenes::placed_at_gap(random, scenes::any_touch(random, moving), scenes::any_touch(random, obstacle), gap);
-  const Clearance found = clearance(moving, at, obstacle);
-  if (gap > kSceneError) {
-    ASSERT_LE(found.lower, gap + kSceneError);
-    ASSERT_GE(found.upper, gap - kSceneError);
-    ASSERT_LE(found.upper - found.lower, 2 * kRounding);
-    ASSERT_NEAR((found.on_body - found.on_obstacle).norm(), gap, 1e-5);
-  } else if (gap < -kSceneError) {
-    ASSERT_LE(found.upper, 0);
-    ASSERT_EQ(found.lower, found.upper);
-  }
-  const double sufficient = random.real(0, 300);
-  const Clearance coarse = clearance(moving, at, obstacle, sufficient);
-  ASSERT_LE(coarse.lower, std::max(gap, 0.0) + kSceneError);
-  ASSERT_TRUE(coarse.lower >= sufficient || coarse.upper - coarse.lower <= 2 * kRounding);
+  scenes::expect_bounds(random, gap, [&](double sufficient) { return clearance(moving, at, obstacle, sufficient); });
 }
 
 std::vector<Mesh> any_meshes() {
