@@ -16,11 +16,7 @@ using verification::BodyPairs;
 using verification::Contact;
 using verification::Encounter;
 using verification::Neighbor;
-
-geometry::Frame frame_in_force(const execution::State& state) {
-  const geometry::Frame face = state.face_mounted ? state.face : geometry::Frame();
-  return {.origin = state.workpiece_origin + face.origin, .axes = face.axes};
-}
+using verification::StretchPlace;
 
 const verification::Scene* Surroundings::scene() const {
   if (!scene_) scene_ = load_();
@@ -89,7 +85,7 @@ class BlockPass {
   }
 
   Surroundings::PassedBlock finish(const Simulation& after) {
-    frame_ = frame_in_force(after.run().state);
+    frame_ = after.run().state.frame_in_force();
     examine();
     for (std::size_t i = 0; changes_tool_ && i < wanted_.limits.size(); ++i)
       if (!was_beyond_[i] && wanted_.limits[i].is_beyond(surroundings_.neighbors_of(after)))

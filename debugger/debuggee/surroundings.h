@@ -14,9 +14,6 @@
 
 namespace isocnc::debuggee {
 
-/// The frame in force, in the machine frame.
-geometry::Frame frame_in_force(const execution::State& state);
-
 /// What surrounds the machine: how near it is to each obstacle, and when it touches one. Everything is judged as the
 /// machine moves now, whatever has been changed by hand. The scene is loaded when it is first asked for. The setup
 /// stays where the run as it was launched has it.

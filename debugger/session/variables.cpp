@@ -249,7 +249,7 @@ class Listing {
     add(in_language(kPart), text::printable(each.who.in(session_.language())));
     add(in_language(kDistance), show_length(std::max(0.0, each.distance)), "mm");
     add(in_language(kDepth), show_length(std::max(0.0, -each.distance)), "mm");
-    const geometry::Vec3 point = debuggee::frame_in_force(moment_.state).to_inner(each.point);
+    const geometry::Vec3 point = moment_.state.frame_in_force().to_inner(each.point);
     add(in_language(kPoint),
         fmt::format("X {} Y {} Z {}", show_length(point.x()), show_length(point.y()), show_length(point.z())), "mm");
     if (each.described.file.empty()) return;

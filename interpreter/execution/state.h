@@ -110,6 +110,11 @@ struct State {
         static_cast<std::uint16_t>(bit(dialect::ModalGroup::Face) | bit(dialect::ModalGroup::Workpiece));
     return workpiece_unknown == 0 && !face_undefined && !face_unplaced && (in_doubt & frames) == 0;
   }
+  /// The frame in force, in the machine frame.
+  geometry::Frame frame_in_force() const {
+    return {.origin = to_machine(geometry::Vec3::Zero()),
+            .axes = face_mounted ? face.axes : geometry::Mat3::Identity()};
+  }
   /// Transforms a point from the frame in force to the machine frame, mm.
   geometry::Vec3 to_machine(const geometry::Vec3& p) const {
     return workpiece_origin + (face_mounted ? face.to_outer(p) : p);

@@ -185,9 +185,7 @@ Pose Toolpath::mount(execution::ToolCode tool) {
 }
 
 void Toolpath::add_frame(const running::FrameEvent& event, std::size_t line) {
-  geometry::Frame frame;
-  frame.origin = event.workpiece_origin;
-  if (event.face_mounted) frame = {event.workpiece_origin + event.face.origin, event.face.axes};
+  const geometry::Frame& frame = event.in_force;
   const bool is_known =
       std::any_of(frames_.begin(), frames_.end(), [&](const ToolpathFrame& known) { return known.frame == frame; });
   if (!is_known && frames_.size() < kMaxFrames) frames_.push_back({frame, line});

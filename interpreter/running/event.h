@@ -41,7 +41,8 @@ struct FrameEvent {
 
   geometry::Vec3 workpiece_origin = geometry::Vec3::Zero();  ///< Machine frame, mm.
   bool face_mounted = false;
-  geometry::Frame face;  ///< In the workpiece frame.
+  geometry::Frame face;      ///< In the workpiece frame.
+  geometry::Frame in_force;  ///< In the machine frame.
 };
 struct JumpEvent {
   static constexpr std::string_view kKind = "jump";

@@ -45,7 +45,7 @@ class BlockSink final : public execution::Sink {
     add(ToolEvent{tool});
   }
   void frame_changed(const execution::State& state) override {
-    add(FrameEvent{state.workpiece_origin, state.face_mounted, state.face});
+    add(FrameEvent{state.workpiece_origin, state.face_mounted, state.face, state.frame_in_force()});
   }
   void assign(int reg, double value) override {
     if (!registers_before) registers_before = registers_;

@@ -10,7 +10,7 @@ void FrameLog::take(const running::FrameEvent& event, std::size_t line) {
   const bool dismounts = face_ && !event.face_mounted && event.workpiece_origin == workpiece_.frame.origin;
   face_.reset();
   if (event.face_mounted) {
-    face_ = {.line = line, .frame = {event.workpiece_origin + event.face.origin, event.face.axes}};
+    face_ = {.line = line, .frame = event.in_force};
   } else if (!dismounts) {
     workpiece_ = {.line = line, .frame = {.origin = event.workpiece_origin}};
   }

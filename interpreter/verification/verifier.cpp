@@ -50,10 +50,7 @@ void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent
 }
 
 void Verifier::take(const simulation::TimedEvent& event) {
-  if (const auto* const frame = std::get_if<running::FrameEvent>(&event.event.what)) {
-    const geometry::Frame face = frame->face_mounted ? frame->face : geometry::Frame();
-    frames_.push_back({.origin = frame->workpiece_origin + face.origin, .axes = face.axes});
-  }
+  if (const auto* const frame = std::get_if<running::FrameEvent>(&event.event.what)) frames_.push_back(frame->in_force);
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what))
     mount(tool->tool, event.event.line, event.start + event.duration);
   if (material_) material_->take(event);
