@@ -121,11 +121,13 @@ class BlockPass {
     const std::vector<Encounter> found = contacts_on(stretches_, bodies);
     // The stretch before matters only where the first one touches something.
     if (stretch_before_ && !found.empty() && found.front().stretch == 0)
-      for (const Encounter& encounter : contacts_on({&*stretch_before_, 1}, bodies))
-        log.take(encounter, {.number = 0, .line = kBefore, .frame = frame_}, bodies, tool_);
-    for (const Encounter& encounter : found)
-      log.take(encounter, {.number = encounter.stretch + 1, .line = lines_[encounter.stretch], .frame = frame_}, bodies,
-               tool_);
+      log.take(
+          contacts_on({&*stretch_before_, 1}, bodies),
+          [&](std::size_t) -> StretchPlace { return {.number = 0, .line = kBefore, .frame = frame_}; }, bodies, tool_);
+    const auto place_of = [&](std::size_t stretch) -> StretchPlace {
+      return {.number = stretch + 1, .line = lines_[stretch], .frame = frame_};
+    };
+    log.take(found, place_of, bodies, tool_);
     log.close_all();
     for (const Contact& contact : log.contacts())
       if (contact.line != kBefore) passed_.contacts.push_back(contact);

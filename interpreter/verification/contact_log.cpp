@@ -25,8 +25,8 @@ static dialect::DiagnosticId contact_with(BodyRole role) {
   return "hits-machine"_diag;
 }
 
-void ContactLog::take(const Encounter& encounter, const StretchPlace& at, const BodyPairs& bodies,
-                      const execution::ToolCode& tool) {
+void ContactLog::take_one(const Encounter& encounter, const StretchPlace& at, const BodyPairs& bodies,
+                          const execution::ToolCode& tool) {
   const BodyPair& pair = bodies.pairs[encounter.pair];
   const Obstacle& obstacle = bodies.obstacles[pair.obstacle];
   const auto [known, is_new] = open_.try_emplace({pair.obstacle, mover_of(bodies, pair.part)});

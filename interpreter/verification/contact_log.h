@@ -21,9 +21,13 @@ struct StretchPlace {
 /// however many motions it takes and whichever part of the tool is nearest.
 class ContactLog {
  public:
-  /// Takes an encounter; in the order of the stretches.
-  void take(const Encounter& encounter, const StretchPlace& at, const BodyPairs& bodies,
-            const execution::ToolCode& tool);
+  /// Takes what stretches that were examined together have shown; in the order of the run. `place_of` tells where each
+  /// of them is.
+  template <class PlaceOf>
+  void take(const std::vector<Encounter>& encounters, PlaceOf&& place_of, const BodyPairs& bodies,
+            const execution::ToolCode& tool) {
+    for (const Encounter& encounter : encounters) take_one(encounter, place_of(encounter.stretch), bodies, tool);
+  }
   /// Nothing lasts from before to after, as at a tool change.
   void close_all();
 
@@ -41,6 +45,8 @@ class ContactLog {
     Contact contact;
   };
 
+  void take_one(const Encounter& encounter, const StretchPlace& at, const BodyPairs& bodies,
+                const execution::ToolCode& tool);
   void close(const Episode& episode);
 
   static constexpr std::size_t kMaxContacts = 10'000;

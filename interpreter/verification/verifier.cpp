@@ -107,11 +107,12 @@ void Verifier::examine_waiting() {
     work();
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (const Encounter& encounter : parts[i].encounters) {
-      const std::size_t index = i * kPart + encounter.stretch;
+    const auto place_of = [&](std::size_t stretch) -> StretchPlace {
+      const std::size_t index = i * kPart + stretch;
       const WaitingStretch& waiting = waiting_[index];
-      log_.take(encounter, {examined_ + index, waiting.line, frames_[waiting.frame]}, bodies_, tool_);
-    }
+      return {examined_ + index, waiting.line, frames_[waiting.frame]};
+    };
+    log_.take(parts[i].encounters, place_of, bodies_, tool_);
     for (const std::size_t undecided : parts[i].undecided) {
       const std::size_t line = waiting_[i * kPart + undecided].line;
       const auto is_known = [&](const Unverified& each) { return each.gap == Gap::Undecided; };
