@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "interpreter/configuration/tool_bodies.h"
+#include "interpreter/verification/surroundings.h"
 
 namespace isocnc::configuration {
 
@@ -112,6 +113,7 @@ static void add_machine(const MachineConfiguration& machine, const MeshSource& m
   }
   const BodyMaker maker(machine.file, machine.folder, meshes);
   for (const DescribedBody& body : machine.bodies) maker.add(body, BodyRole::Machine, scene.machine);
+  scene.touching = verification::touching_at_home(scene, machine.timed);
 }
 
 Scene make_scene(const MachineConfiguration& machine, const std::optional<LocatedSetup>& located,

@@ -112,12 +112,16 @@ class PairsMaker {
     }
   }
 
-  /// Whether motions bring both nearer together, and they are not made to touch: what carries the nose touches it, and
-  /// links that carry one another touch as well.
+  /// Whether motions bring both nearer together, and they are not made to touch: what carries the nose touches it,
+  /// links that carry one another touch as well, and so do bodies that touch from the start.
   bool may_meet(const MovingPart& part, const Obstacle& obstacle) const {
     const bool is_own = carries_spindle(obstacle.on);
     if (part.revolved) return !(is_own && part.kind == PartKind::Nose);
-    return carries_spindle(part.on) ? !is_own : obstacle.on == Link::Machine;
+    if (carries_spindle(part.on) ? is_own : obstacle.on != Link::Machine) return false;
+    const auto are_these = [&](const TouchingBodies& each) {
+      return part.body == &scene_.machine[each.moving] && obstacle.body == &scene_.machine[each.other];
+    };
+    return std::none_of(scene_.touching.begin(), scene_.touching.end(), are_these);
   }
 
   void add_pair(std::size_t part_index, std::size_t obstacle_index) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "interpreter/dialect/diagnostic_id.h"
@@ -76,6 +77,8 @@ struct Certificate {
   std::string scene;                ///< The file that describes the setup, or the machine; as shown to users.
   bool has_setup = true;            ///< Whether a setup is for the program.
   std::vector<Unverified> gaps;
+  /// Bodies of the machine that are not compared, since they touch each other from the start: `gantry` and `rails`.
+  std::vector<std::pair<std::string, std::string>> touching;
   std::size_t more_contacts = 0;          ///< Contacts beyond those that are kept.
   std::optional<std::size_t> stopped_at;  ///< The line at which an error stopped the run; from 0.
 };

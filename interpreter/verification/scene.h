@@ -55,12 +55,22 @@ struct ToolBodies {
   BodyDescription described;
 };
 
+/// Two bodies of a machine, as indices into Scene::machine.
+struct TouchingBodies {
+  std::size_t moving = 0;
+  std::size_t other = 0;
+
+  friend bool operator==(const TouchingBodies&, const TouchingBodies&) = default;
+};
+
 /// What surrounds a program: the bodies that a motion may bring together. A value, immutable once made; meshes are
 /// shared.
 struct Scene {
   std::map<execution::ToolCode, ToolBodies> tools;
   std::optional<solids::RevolvedBody> nose;  ///< z = 0 at the spindle nose, growing away from the tool.
   std::vector<SceneBody> machine;            ///< Bodies of the machine.
+  /// Those that are made to touch each other, as a gantry and its rails (touching_at_home()): they are not compared.
+  std::vector<TouchingBodies> touching;
   /// Bodies of the setup: fixtures, spoilboard, target, stock. They stand on the machine, or, on a table that turns, on
   /// the table; `on` is not used. Their frame is that of the first G92, or of the machine.
   std::vector<SceneBody> setup;

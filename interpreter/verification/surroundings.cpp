@@ -46,22 +46,44 @@ class NeighborList {
   std::vector<std::optional<Neighbor>> nearest_;
 };
 
+/// The distance of a pair where the joints are at `joints`; `sufficient` as in solids::clearance().
+solids::Clearance distance_of(const BodyPair& pair, const BodyPairs& bodies, const kinematics::Kinematics& kinematics,
+                              const kinematics::Coordinates& joints, double sufficient) {
+  const MovingPart& part = bodies.parts[pair.part];
+  const Obstacle& obstacle = bodies.obstacles[pair.obstacle];
+  const kinematics::Link carrier = pair.revolved ? spindle_link(kinematics) : part.on;
+  Isometry3d place = link_pose(kinematics, obstacle.on, joints).inverse() * link_pose(kinematics, carrier, joints);
+  const Vec3 origin = pair.revolved ? Vec3(0, 0, part.offset - bodies.tool_length) : part.shift;
+  place.translation() = place * origin - obstacle.shift;
+  return pair.revolved
+             ? distance_to(obstacle.shape, *pair.revolved, {place.translation(), place.linear().col(2)}, sufficient)
+             : distance_to(obstacle.shape, part.body->shape, place, sufficient);
+}
+
 }  // namespace
+
+std::vector<TouchingBodies> touching_at_home(const Scene& scene, const simulation::TimedMachine& machine) {
+  const kinematics::Kinematics& kinematics = machine.motion.kinematics;
+  const kinematics::Coordinates joints = inverse(kinematics, kinematics::coordinates(machine.home), 0);
+  // Only bodies of the machine can touch so, wherever the setup is, and no tool is mounted.
+  Scene bare;
+  bare.machine = scene.machine;
+  const BodyPairs bodies = pairs_of(bare, kinematics, {}, Vec3::Zero());
+  const auto index_of = [&](const SceneBody* body) { return static_cast<std::size_t>(body - bare.machine.data()); };
+  std::vector<TouchingBodies> touching;
+  for (const BodyPair& pair : bodies.pairs)
+    if (distance_of(pair, bodies, kinematics, joints, kContactDistance).upper <= kContactDistance)
+      touching.push_back(
+          {.moving = index_of(bodies.parts[pair.part].body), .other = index_of(bodies.obstacles[pair.obstacle].body)});
+  return touching;
+}
 
 std::vector<Neighbor> neighbors_at(const BodyPairs& bodies, const kinematics::Kinematics& kinematics,
                                    const kinematics::Coordinates& joints) {
   NeighborList nearest(bodies);
   for (const BodyPair& pair : bodies.pairs) {
-    const MovingPart& part = bodies.parts[pair.part];
     const Obstacle& obstacle = bodies.obstacles[pair.obstacle];
-    const kinematics::Link carrier = pair.revolved ? spindle_link(kinematics) : part.on;
-    Isometry3d place = link_pose(kinematics, obstacle.on, joints).inverse() * link_pose(kinematics, carrier, joints);
-    const Vec3 origin = pair.revolved ? Vec3(0, 0, part.offset - bodies.tool_length) : part.shift;
-    place.translation() = place * origin - obstacle.shift;
-    const solids::Clearance found =
-        pair.revolved
-            ? distance_to(obstacle.shape, *pair.revolved, {place.translation(), place.linear().col(2)}, solids::kExact)
-            : distance_to(obstacle.shape, part.body->shape, place, solids::kExact);
+    const solids::Clearance found = distance_of(pair, bodies, kinematics, joints, solids::kExact);
     nearest.take(
         pair, found.upper - pair.slack,
         point_on_link(kinematics, workpiece_link(kinematics), obstacle.on, joints, found.on_obstacle + obstacle.shift),

@@ -66,6 +66,14 @@ static std::vector<std::string> not_verified(const Certificate& certificate, Lan
   return gaps;
 }
 
+/// Pairs of bodies: `gantry and rails`.
+static std::vector<std::string> not_compared(const Certificate& certificate, Language language) {
+  std::vector<std::string> pairs;
+  for (const auto& [moving, other] : certificate.touching)
+    pairs.push_back(dialect::format(Text{"{} and {}", "{} e {}"}, language, moving, other));
+  return pairs;
+}
+
 std::string in_words(const Certificate& certificate, Language language) {
   static constexpr Text kInSetup = {"verified: {}, {}; nothing nearer than {} mm unseen in the setup of {}",
                                     "verificato: {}, {}; nulla di più vicino di {} mm sfugge nell'attrezzaggio di {}"};
@@ -86,8 +94,13 @@ std::string in_words(const Certificate& certificate, Language language) {
                          : dialect::format(certificate.has_setup ? kInSetup : kOfMachine, language, motions, contacts,
                                            certificate.epsilon, certificate.scene);
   const std::vector<std::string> gaps = not_verified(certificate, language);
-  if (gaps.empty()) return line;
-  return line + dialect::format(Text{"; not verified: {}", "; non verificato: {}"}, language, fmt::join(gaps, ", "));
+  if (!gaps.empty())
+    line += dialect::format(Text{"; not verified: {}", "; non verificato: {}"}, language, fmt::join(gaps, ", "));
+  if (const std::vector<std::string> pairs = not_compared(certificate, language); !pairs.empty())
+    line += dialect::format(
+        Text{"; not compared: {}, which touch at the start", "; non confrontati: {}, che all'inizio si toccano"},
+        language, fmt::join(pairs, ", "));
+  return line;
 }
 
 std::string in_words(const Contact& contact, Language language) {
@@ -166,6 +179,7 @@ OrderedJson to_json(const VerifiedRun& verified, Language language) {
   if (certificate.soft_disc) json["certificate"]["softDisc"] = *certificate.soft_disc;
   json["certificate"]["setup"] = certificate.scene;
   json["certificate"]["notVerified"] = not_verified(certificate, language);
+  json["certificate"]["notCompared"] = not_compared(certificate, language);
   return json;
 }
 

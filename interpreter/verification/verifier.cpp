@@ -29,6 +29,8 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
   certificate_.epsilon = kContactDistance / 2;
   certificate_.scene = scene.name;
   certificate_.has_setup = scene.has_setup;
+  for (const TouchingBodies& each : scene.touching)
+    certificate_.touching.emplace_back(scene.machine[each.moving].name, scene.machine[each.other].name);
   std::optional<removal::Workpiece> workpiece = workpiece_of(scene, origin, material);
   if (!workpiece) return;
   if (const auto coarser = coarser_spacing(*workpiece)) {

@@ -36,9 +36,53 @@ TEST(ContactReports, BodiesThatAlwaysTouchHideNoOtherContact) {
   add_machine_body(shop, "bed", Link::Machine, {-1000, -600, -300}, {3000, 2000, -200});
   add_machine_body(shop, "gantry", Link::X, {-100, -500, -200}, {100, -400, 800});
   const VerifiedRun run = shop.run("M06 T101001\nG00 X0 Y0 Z100 B0 C0\nX80 Y80\nG01 Z-220 F1000\nG00 Z100\nM02\n");
+  EXPECT_EQ(summaries(run), std::vector<std::string>{"E153 4 the cutter of T101001 | bed"});
+}
+
+TEST(ContactReports, BodiesOfTheMachineThatTouchAtTheStartAreNotCompared) {
+  constexpr std::string_view kProgram = "M06 T101001\nG00 X0 Y0 Z100\nX500\nM02\n";
+  const auto run_at_gap = [&](double gap, MachineKind kind = MachineKind::ThreeAxis) {
+    Shop shop(kind);
+    add_machine_body(shop, "gantry", Link::X, {-100, -500, -200 + gap}, {100, -400, 800});
+    add_machine_body(shop, "rails", Link::Machine, {-1000, -600, -300}, {3000, -300, -200});
+    return shop.run(std::string(kProgram));
+  };
+  for (const double gap : {0.0, -5.0, 0.015}) {
+    const VerifiedRun run = run_at_gap(gap);
+    EXPECT_TRUE(run.contacts.empty()) << gap;
+    EXPECT_TRUE(in_words(*run.certificate, Language::English)
+                    .ends_with("; not compared: gantry and rails, which touch at the start"));
+    EXPECT_TRUE(in_words(*run.certificate, Language::Italian)
+                    .ends_with("; non confrontati: gantry e rails, che all'inizio si toccano"));
+    EXPECT_EQ(to_json(run.contacts, *run.certificate, Language::English)["certificate"]["notCompared"][0],
+              "gantry and rails");
+  }
+  const VerifiedRun apart = run_at_gap(0.025);
+  EXPECT_TRUE(apart.contacts.empty());
+  EXPECT_TRUE(apart.certificate->touching.empty());
+}
+
+TEST(ContactReports, BodiesOfTheMachineThatTouchLaterAreReported) {
+  Shop shop;
+  add_machine_body(shop, "gantry", Link::X, {-100, -500, -200}, {100, -400, 800});
+  add_machine_body(shop, "rails", Link::Machine, {-1000, -600, -300}, {3000, -300, -200});
+  add_machine_body(shop, "post", Link::Machine, {400, -450, 0}, {450, -400, 100});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X0 Y0 Z100\nX500\nM02\n");
+  EXPECT_EQ(summaries(run), std::vector<std::string>{"E153 3 gantry | post"});
+  EXPECT_EQ(run.certificate->touching.size(), 1u);
+}
+
+TEST(ContactReports, WhatTheToolOrTheSetupTouchesAtTheStartIsReported) {
+  Shop shop;
+  add_machine_body(shop, "gantry", Link::X, {-100, -500, -200}, {100, -400, 800});
+  add_machine_body(shop, "post", Link::Machine, {-50, 0, 350}, {50, 100, 500});
+  shop.box("clamp", {0, -450, -200}, {50, -420, 0});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X10 Y0 Z400\nM02\n");
   const std::vector<std::string> found = summaries(run);
-  EXPECT_NE(std::find(found.begin(), found.end(), "E153 4 the cutter of T101001 | bed"), found.end())
+  EXPECT_NE(std::find(found.begin(), found.end(), "E152 2 gantry | clamp"), found.end());
+  EXPECT_NE(std::find(found.begin(), found.end(), "E153 2 the spindle nose | post"), found.end())
       << fmt::format("{}", fmt::join(found, "\n"));
+  EXPECT_TRUE(run.certificate->touching.empty());
 }
 
 TEST(ContactReports, TheBodyThatGoesDeepestIsNamed) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "interpreter/solids/tool_shapes.h"
+#include "interpreter/verification/surroundings.h"
 #include "interpreter/verification/verified_run.h"
 
 namespace isocnc::verification {
@@ -50,7 +51,9 @@ struct Shop {
   VerifiedRun run(const std::string& program, WorkTogether work_together = {}) const {
     running::RunOptions options;
     options.setup.home = machine.home;
-    return verified_run(program, options, machine, &scene, std::move(work_together));
+    Scene made = scene;
+    made.touching = touching_at_home(made, machine);
+    return verified_run(program, options, machine, &made, std::move(work_together));
   }
 };
 
