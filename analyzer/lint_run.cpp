@@ -17,6 +17,8 @@
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/process.h"
 #include "interpreter/system/system_texts.h"
+#include "interpreter/text/unicode.h"
+#include "interpreter/verification/verification_report.h"
 
 namespace isocnc::analyzer {
 
@@ -78,6 +80,7 @@ bool LintRun::show_all() {
   }
   renderer_->end(output_.buffer());
   if (!output_.finish()) return false;
+  std::cerr << std::exchange(certificates_, {});
   if (program_.flush() == 0) return true;
   complain(fmt::format("<stdout>: {}", system::cannot_write(program_.error(), style_.language)));
   return false;
@@ -131,20 +134,20 @@ CheckedFile LintRun::check(const std::filesystem::path& path, const selection::P
     checked.report = selection::shown_report(std::move(found), text, settings.selection, filter);
     return checked;
   }
-  checked.report = verified(std::move(found), checked, filter);
+  verify(checked, std::move(found), filter);
   return checked;
 }
 
-/// What a check has found, with what a run on the machine shows.
-check::Report LintRun::verified(check::Report found, const CheckedFile& checked,
-                                const selection::FindingFilter& filter) {
+/// Adds what a run on the machine shows to what a check has found.
+void LintRun::verify(CheckedFile& checked, check::Report found, const selection::FindingFilter& filter) {
   const std::string_view text = checked.text();
   const selection::ProgramSettings& settings = checked.settings;
   const auto scene = options_.source.none ? nullptr : scenes_.of(settings.configuration, checked.name);
   const int jobs = jobs_for(text);
   const auto together = [jobs](const std::function<void()>& work) { check::side_by_side(jobs, work); };
   const verification::VerifiedRun run = selection::verified(text, settings, scene.get(), {.together = together});
-  return selection::shown_report_with_run(std::move(found), run.outcome, text, settings.selection, filter);
+  if (run.certificate) checked.certificate = verification::in_words(*run.certificate, style_.language);
+  checked.report = selection::shown_report_with_run(std::move(found), run.outcome, text, settings.selection, filter);
 }
 
 void LintRun::fix(CheckedFile& checked) const {
@@ -180,12 +183,14 @@ void LintRun::show(const CheckedFile& checked) {
     failed_ = true;
   }
   counts_ += checked.counts();
+  if (options_.format == "text" && !checked.certificate.empty())
+    certificates_ += fmt::format("{}: {}\n", text::printable(checked.name), text::printable(checked.certificate));
   if (options_.prints_program())
     fixing::write_fixed(std::get<SourceFile>(checked.opened), *checked.fixed,
                         [&](std::string_view text) { program_.write(text); });
   if (output_.has_failed()) return;
   if (options_.diff) return show_difference(checked);
-  renderer_->file({checked.name, checked.text(), checked.report, checked.settings.setup}, output_);
+  renderer_->file({checked.name, checked.text(), checked.report, checked.settings.setup, checked.certificate}, output_);
 }
 
 void LintRun::show_difference(const CheckedFile& checked) {

@@ -41,7 +41,8 @@ struct CheckedFile {
   std::variant<system::SourceFile, system::SourceFile::Problem> opened;
   const selection::ProgramSettings& settings;
   check::Report report = {};
-  std::size_t known = 0;  ///< The number of findings that the baseline knows.
+  std::size_t known = 0;         ///< The number of findings that the baseline knows.
+  std::string certificate = {};  ///< What the machine has proven of it, in words; empty if it was not asked.
   std::optional<fixing::FixedText> fixed = {};
   std::optional<std::string> why_not_fixed = {};
 
@@ -73,7 +74,7 @@ class LintRun {
   CheckedFile check(const std::filesystem::path& path, const selection::ProgramSettings& settings);
   void fix(CheckedFile& checked) const;
   int jobs_for(std::string_view text) const;
-  check::Report verified(check::Report found, const CheckedFile& checked, const selection::FindingFilter& filter);
+  void verify(CheckedFile& checked, check::Report found, const selection::FindingFilter& filter);
   check::Report without_known(check::Report report, const std::string& name, std::string_view text) const;
   void show(const CheckedFile& checked);
   void show_difference(const CheckedFile& checked);
@@ -94,6 +95,7 @@ class LintRun {
   std::size_t turn_ = 0;  // Guarded by mutex_, like the members below.
   LintOutput output_;
   LintCounts counts_;
+  std::string certificates_;                             // One line for each program.
   system::OutputFile program_{system::kStandardOutput};  // The output of --fix -.
   bool has_difference_ = false;
   bool failed_ = false;

@@ -41,8 +41,10 @@ class SarifRenderer final : public Renderer {
 
   void file(const CheckedProgram& program, Output& output) override {
     const OrderedJson artifact = {{"uri", uri_of(program.name)}, {"index", artifacts_.size()}};
-    artifacts_.push_back(
-        dumped({{"location", {{"uri", uri_of(program.name)}}}, {"roles", OrderedJson::array({"analysisTarget"})}}));
+    OrderedJson described = {{"location", {{"uri", uri_of(program.name)}}},
+                             {"roles", OrderedJson::array({"analysisTarget"})}};
+    if (!program.certificate.empty()) described["properties"] = {{"certificate", program.certificate}};
+    artifacts_.push_back(dumped(described));
     syntax::LineFinder lines(program.text);
     const StepTexts steps(program.text, program.report, style_.language);
     selection::Fingerprints fingerprints;

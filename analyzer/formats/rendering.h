@@ -60,6 +60,7 @@ struct CheckedProgram {
   std::string_view text;
   const check::Report& report;
   const rules::CheckSetup& setup;  ///< The setup of the check and of the fixes.
+  std::string_view certificate;    ///< What a run has proven, in words; empty for no run.
 };
 
 /// Writes the findings of one file after another in one of the output formats.

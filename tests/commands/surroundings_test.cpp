@@ -19,6 +19,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
+using testing::StartsWith;
 
 constexpr std::string_view kShop = R"({
   "machine": {
@@ -111,6 +112,26 @@ TEST_F(Surroundings, AreCertifiedByIsorun) {
                 "M06 T101002\nG01 X10 F1000\nM06 T101003\nG01 X10\nM06 T101001\nG01 Z10 F1000\nG02 X5\nM02\n");
   EXPECT_THAT(run({"isorun", "--verify", "gaps.iso"}).out,
               HasSubstr("; not verified: T101002 has no shape, T101003 has no length, what follows the error on line"));
+}
+
+TEST_F(Surroundings, AreCertifiedByIsolint) {
+  const CommandResult both = run({"isolint", "--verify", "free.iso", "hit.iso"});
+  EXPECT_EQ(
+      both.err,
+      "free.iso: verified: 4 motions, 0 contacts; nothing nearer than 0.01 mm unseen in the setup of isocnc.json\n"
+      "hit.iso: verified: 4 motions, 1 contact; nothing nearer than 0.01 mm unseen in the setup of isocnc.json\n"
+      "1 error, 0 warnings in 2 files\n");
+  EXPECT_THAT(both.out, Not(HasSubstr("verified")));
+  EXPECT_THAT(run({"isolint", "--lang", "it", "--verify", "free.iso"}).err,
+              StartsWith("free.iso: verificato: 4 movimenti, 0 contatti; "));
+  EXPECT_THAT(run({"isolint", "free.iso"}).err, Not(HasSubstr("verified")));
+  EXPECT_THAT(run({"isolint", "--verify", "--no-config", "free.iso"}).err, Not(HasSubstr("verified")));
+  EXPECT_EQ(run({"isolint", "--verify", "--format", "concise", "free.iso"}).err, "");
+  const json log = json::parse(run({"isolint", "--verify", "--format", "sarif", "free.iso", "hit.iso"}).out);
+  EXPECT_THAT(log.at("runs").at(0).at("artifacts").at(1).at("properties").at("certificate").get<std::string>(),
+              StartsWith("verified: 4 motions, 1 contact; "));
+  const json plain = json::parse(run({"isolint", "--format", "sarif", "free.iso"}).out);
+  EXPECT_FALSE(plain.at("runs").at(0).at("artifacts").at(0).contains("properties"));
 }
 
 TEST_F(Surroundings, MakeAPlainRunFail) {
