@@ -64,19 +64,34 @@ Report without_tips(Report report, const simulation::RunOutcome& run, const Sele
   return report;
 }
 
+/// What a run has looked for. Where something could not be verified, a finding may be missing for that reason.
+static LookedFor looked_for_by(const simulation::RunOutcome& run) {
+  const bool is_whole = std::none_of(run.findings.begin(), run.findings.end(), [](const simulation::RunFinding& each) {
+    return each.finding.id == "not-verified"_diag;
+  });
+  return [&run, is_whole](dialect::DiagnosticId id, std::optional<std::size_t> line) {
+    const bool takes_scene =
+        id == "hits-fixture"_diag || id == "hits-machine"_diag || id == "near-miss"_diag || id == "gouges-part"_diag;
+    if (!is_whole || (takes_scene && !run.has_scene)) return false;
+    return !line || std::any_of(run.runs.begin(), run.runs.end(),
+                                [&](const simulation::TakenPath& taken) { return taken.has_executed(*line); });
+  };
+}
+
 Report shown_report_with_run(Report found, const simulation::RunOutcome& run, std::string_view text,
                              const Selection& selection, const FindingFilter& filter) {
   const auto filter_both = [&](Report report, std::string_view of_text) {
     report = without_tips(std::move(report), run, selection);
     return filter ? filter(std::move(report), of_text) : report;
   };
-  return shown_report(with_run(std::move(found), run), text, selection, filter_both);
+  return shown_report(with_run(std::move(found), run), text, selection, filter_both, looked_for_by(run));
 }
 
-Report shown_report_with_run(Report found, const simulation::RunOutcome& run, const syntax::Document& document,
-                             Suppressions comments, const Selection& selection) {
+Report shown_report_with_run(Report found, const simulation::RunOutcome& run, bool whole,
+                             const syntax::Document& document, Suppressions comments, const Selection& selection) {
   const auto filter = [&](Report report) { return without_tips(std::move(report), run, selection); };
-  return shown_report(with_run(std::move(found), run), document, std::move(comments), selection, filter);
+  return shown_report(with_run(std::move(found), run), document, std::move(comments), selection, filter,
+                      whole ? looked_for_by(run) : LookedFor());
 }
 
 Report shown_run_report(const simulation::RunOutcome& run, std::string_view text, const Selection& selection) {

@@ -17,11 +17,13 @@ check::Report with_run(check::Report found, const simulation::RunOutcome& run);
 
 /// The findings of a check and of a run that are shown, by the same steps as shown_report() of a check alone. On lines
 /// that the run has executed, the joints have been compared with their travel (E160), so that what a check concludes
-/// from the tip (W130), on every path or on that of the run, is left out there.
+/// from the tip (W130), on every path or on that of the run, is left out there. Comments about what only a run shows
+/// are useless (W190) where the run has found nothing of it, unless something could not be verified (W162).
 check::Report shown_report_with_run(check::Report found, const simulation::RunOutcome& run, std::string_view text,
                                     const Selection& selection, const FindingFilter& filter = {});
-/// The same for a document and the suppressions read from it.
-check::Report shown_report_with_run(check::Report found, const simulation::RunOutcome& run,
+/// The same for a document and the suppressions read from it, which are judged if the run is `whole`: all that
+/// it has found of the present text.
+check::Report shown_report_with_run(check::Report found, const simulation::RunOutcome& run, bool whole,
                                     const syntax::Document& document, Suppressions comments,
                                     const Selection& selection);
 

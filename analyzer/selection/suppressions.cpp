@@ -152,12 +152,14 @@ void Suppressions::drop_suppressed(std::vector<check::LocatedFinding>& findings)
   if (!directives_.empty()) read_up_to(directives_.back().line);
 }
 
-void Suppressions::keep_directives_for_disabled_codes(const Selection& selection) {
-  const auto is_looked_for = [&](DiagnosticId id) {
-    return selection.shows(id) && !dialect::definition(id).is_reported_by_runs;
+void Suppressions::keep_directives_for_unchecked_codes(const Selection& selection, const LookedFor& by_run) {
+  const auto is_looked_for = [&](DiagnosticId id, const Directive& directive) {
+    if (!selection.shows(id)) return false;
+    if (!dialect::definition(id).is_reported_by_runs) return true;
+    return by_run && by_run(id, directive.kind == Kind::Ignore ? std::optional(directive.line) : std::nullopt);
   };
   for (Directive& directive : directives_)
-    for (Code& code : directive.codes) code.useful = code.useful || (code.id && !is_looked_for(*code.id));
+    for (Code& code : directive.codes) code.useful = code.useful || (code.id && !is_looked_for(*code.id, directive));
 }
 
 /// Directives without effect, except those that may suppress W190; with `about_w190` only these, after all others have
@@ -187,10 +189,10 @@ std::vector<check::LocatedFinding> Suppressions::useless(bool about_w190) const 
   return findings;
 }
 
-check::Report Suppressions::apply(check::Report report, const Selection& selection) {
+check::Report Suppressions::apply(check::Report report, const Selection& selection, const LookedFor& by_run) {
   if (empty()) return report;
   drop_suppressed(report.findings);
-  keep_directives_for_disabled_codes(selection);
+  keep_directives_for_unchecked_codes(selection, by_run);
   std::vector<check::LocatedFinding> complaints = useless(false);
   drop_suppressed(complaints);
   const auto middle = static_cast<std::ptrdiff_t>(report.findings.size());

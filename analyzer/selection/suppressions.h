@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "analyzer/selection/selection.h"
 
 namespace isocnc::selection {
+
+/// Whether a run of the machine has looked for a code that only runs report: on a line, or in the whole program.
+using LookedFor = std::function<bool(dialect::DiagnosticId id, std::optional<std::size_t> line)>;
 
 /// The directives for isolint in a program's comments, and the findings that they suppress:
 ///
@@ -31,8 +35,9 @@ class Suppressions {
   void read_line(std::size_t number, std::string_view line);
   bool empty() const { return directives_.empty(); }
   /// The report without suppressed findings, and with directives that have no effect (W190). W190 does not report
-  /// directives for codes that are off, because those may not have been checked.
-  check::Report apply(check::Report report, const Selection& selection);
+  /// directives for codes that are off, because those may not have been checked, nor for codes that only runs report,
+  /// except what a run has looked for.
+  check::Report apply(check::Report report, const Selection& selection, const LookedFor& by_run = {});
 
  private:
   enum class Kind : std::uint8_t { Ignore, Disable, Enable, IgnoreFile, Unknown };
@@ -56,7 +61,7 @@ class Suppressions {
   static void apply_disable(Directive& directive, SuppressedBy& suppressors);
   static void apply_enable(Directive& directive, SuppressedBy& suppressors);
   void drop_suppressed(std::vector<check::LocatedFinding>& findings);
-  void keep_directives_for_disabled_codes(const Selection& selection);
+  void keep_directives_for_unchecked_codes(const Selection& selection, const LookedFor& by_run);
   std::vector<check::LocatedFinding> useless(bool about_w190) const;
 
   std::vector<Directive> directives_;  // The directives, in the order of the program.

@@ -49,6 +49,7 @@ struct RunOutcome {
   std::vector<RunFinding> findings;             ///< Sorted by line and column, each once on its line.
   std::vector<TakenPath> runs;                  ///< One for each run.
   std::vector<std::vector<RunDecision>> paths;  ///< What leads to findings that the first run does not have.
+  bool has_scene = false;  ///< Whether what surrounds the machine was known: contacts were looked for.
 };
 
 /// What the machine shows of a program: joints outside their travel (E160), gouges of the cutter compensation (W138 to

@@ -129,6 +129,7 @@ VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier,
                                        .stock = material->stock(),
                                        .origin = material->workpiece().origin};
   if (result.ending == running::Ending::Error) verified.certificate->stopped_at = result.line;
+  verified.outcome.has_scene = true;
   add_findings(verified.outcome, verified.contacts, *verified.certificate, text);
   return verified;
 }

@@ -156,9 +156,12 @@ selection::Suppressions AnalyzedDocument::read_suppressions() {
 
 /// The report as isolint would show it, with --verify once there is a run.
 check::Report AnalyzedDocument::shown_report() {
-  if (run_)
-    return selection::shown_report_with_run(analysis_->report(), run_->outcome(), document_, read_suppressions(),
-                                            settings_.program->selection);
+  if (run_) {
+    // Without all that the run has found, a comment may only seem to have no effect.
+    const bool is_whole = run_->is_current() && run_->outcome().findings.size() < KeptRun::kMaxFindings;
+    return selection::shown_report_with_run(analysis_->report(), run_->outcome(), is_whole, document_,
+                                            read_suppressions(), settings_.program->selection);
+  }
   return selection::shown_report(analysis_->report(), document_, read_suppressions(), settings_.program->selection);
 }
 

@@ -16,6 +16,8 @@ namespace {
 
 using nlohmann::json;
 using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -132,6 +134,39 @@ TEST_F(Surroundings, AreCertifiedByIsolint) {
               StartsWith("verified: 4 motions, 1 contact; "));
   const json plain = json::parse(run({"isolint", "--format", "sarif", "free.iso"}).out);
   EXPECT_FALSE(plain.at("runs").at(0).at("artifacts").at(0).contains("properties"));
+}
+
+/// The findings of isolint --verify in a program: `E152@3`.
+std::vector<std::string> places_in(const std::string& report) {
+  std::vector<std::string> places;
+  for (const json& each : json::parse(report))
+    places.push_back(each.at("code").get<std::string>() + "@" + std::to_string(each.at("line").get<int>()));
+  return places;
+}
+
+TEST_F(Surroundings, CommentsAboutThemWithoutEffectAreReported) {
+  const auto found = [&](const std::string& program, std::vector<std::string> options = {"--verify"}) {
+    folder_.write("part.iso", program);
+    options.insert(options.begin(), {"isolint", "--format", "json"});
+    options.emplace_back("part.iso");
+    return places_in(run(options).out);
+  };
+  const std::string ignored = "M06 T101001\nG00 X0 Y0 Z10\nG01 X120 F1000 ;isolint: ignore E152\nG00 Z50\nM02\n";
+  const std::string useless = "M06 T101001\nG00 X0 Y0 Z40\nG01 X120 F1000 ;isolint: ignore E152\nG00 Z50\nM02\n";
+  EXPECT_THAT(found(ignored), IsEmpty());
+  EXPECT_THAT(found(ignored, {}), IsEmpty());
+  EXPECT_THAT(found(useless), ElementsAre("W190@3"));
+  EXPECT_THAT(found(useless, {}), IsEmpty()) << "the machine was not asked";
+  EXPECT_THAT(found("(isolint: ignore-file E153)\n" + useless), ElementsAre("W190@1", "W190@4"));
+  // Where the machine did not come to the line, or not all could be verified, nothing is known of it.
+  EXPECT_THAT(found("M06 T101001\nG00 X0 Y0 Z40\nGOTO N10\nX1 ;isolint: ignore E152\nN10 M02\n",
+                    {"--verify", "--ignore", "W108"}),
+              Not(Contains("W190@4")));
+  EXPECT_THAT(found("M06 T101002\nG00 X0 Y0 Z40 ;isolint: ignore E152\nM02\n"), ElementsAre("W162@1"));
+  // Without a setup nobody has looked for contacts, but for joints.
+  EXPECT_THAT(found(useless, {"--verify", "--no-config"}), IsEmpty());
+  EXPECT_THAT(found("M06 T101001\nG00 X1 ;isolint: ignore E160\nM02\n", {"--verify", "--no-config"}),
+              ElementsAre("W190@2"));
 }
 
 TEST_F(Surroundings, MakeAPlainRunFail) {
