@@ -116,10 +116,10 @@ std::string PathRecording::facts(const Toolpath& path, const PlottedRun& run) co
   for (const kinematics::AxisLimits& axis : machine_.motion.axes) json["travel"].push_back(range(axis));
   if (subject_.scene) json["scene"] = scene_facts(*subject_.scene, machine_.motion.kinematics, subject_.origin);
   if (run.verified.certificate) {
-    json["contacts"] = contact_facts(run.verified, subject_.language);
+    json["contacts"] = contact_facts(run.verified);
     if (run.cuts && run.verified.material)
       json["stock"] = stock_facts(*run.cuts, *run.verified.material, *subject_.scene, machine_.motion.kinematics);
-    json["certificate"] = in_words(*run.verified.certificate, subject_.language);
+    json["certificate"] = in_both_languages(*run.verified.certificate);
   }
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }

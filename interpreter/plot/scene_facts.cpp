@@ -165,7 +165,7 @@ OrderedJson stock_facts(const StockRecording& cuts, const verification::Material
   return json;
 }
 
-OrderedJson contact_facts(const verification::VerifiedRun& run, dialect::Language language) {
+OrderedJson contact_facts(const verification::VerifiedRun& run) {
   OrderedJson json = OrderedJson::array();
   for (const verification::Contact& contact : run.contacts) {
     if (contact.is_hint()) continue;
@@ -177,11 +177,11 @@ OrderedJson contact_facts(const verification::VerifiedRun& run, dialect::Languag
                     {"time", contact.time},
                     {"endTime", contact.end_time},
                     {"tool", running::tool_name(contact.tool)},
-                    {"who", contact.who.in(language)},
-                    {"whom", contact.whom.in(language)},
+                    {"who", contact.who.in(dialect::Language::English)},
+                    {"whom", contact.whom.in(dialect::Language::English)},
                     {"point", array(contact.point)},
                     {"distance", contact.distance},
-                    {"message", in_words(contact, language)}});
+                    {"message", in_both_languages(contact)}});
   }
   return json;
 }

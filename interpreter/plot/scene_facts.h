@@ -6,6 +6,7 @@
 
 #include "interpreter/kinematics/machine.h"
 #include "interpreter/plot/stock_recording.h"
+#include "interpreter/verification/verification_report.h"
 #include "interpreter/verification/verified_run.h"
 
 namespace isocnc::plot {
@@ -24,8 +25,14 @@ nlohmann::ordered_json stock_facts(const StockRecording& cuts, const verificatio
                                    const verification::Scene& scene, const kinematics::Kinematics& kinematics);
 
 /// The contacts and near misses of a run, `[{"code", "severity", "line", "endLine", "time", "endTime", "tool", "who",
-/// "whom", "point", "distance", "message"}]`: lines from 1; mm, seconds; points in the machine frame with all joints
-/// at 0.
-nlohmann::ordered_json contact_facts(const verification::VerifiedRun& run, dialect::Language language);
+/// "whom", "point", "distance", "message": {"en", "it"}}]`: lines from 1; mm, seconds; points in the machine frame with
+/// all joints at 0; the names in English.
+nlohmann::ordered_json contact_facts(const verification::VerifiedRun& run);
+
+/// A text in both languages, between which a view switches: `{"en", "it"}`.
+template <class Value>
+nlohmann::ordered_json in_both_languages(const Value& value) {
+  return {{"en", in_words(value, dialect::Language::English)}, {"it", in_words(value, dialect::Language::Italian)}};
+}
 
 }  // namespace isocnc::plot

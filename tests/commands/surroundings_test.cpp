@@ -224,7 +224,10 @@ TEST_F(Surroundings, AreInThePage) {
   EXPECT_EQ(facts.at("scene").at("bodies").at(0).at("role"), "fixture");
   EXPECT_EQ(facts.at("scene").at("tools").at("T101001").at("cutter"), json::parse("[[0, 10], [100, 10]]"));
   EXPECT_EQ(facts.at("contacts").at(0).at("line"), 3);
-  EXPECT_THAT(facts.at("certificate").get<std::string>(), HasSubstr("verified: 4 motions, 1 contact"));
+  EXPECT_THAT(facts.at("certificate").at("en").get<std::string>(), HasSubstr("verified: 4 motions, 1 contact"));
+  EXPECT_THAT(facts.at("certificate").at("it").get<std::string>(), HasSubstr("verificato: 4 movimenti, 1 contatto"));
+  EXPECT_THAT(facts.at("contacts").at(0).at("message").at("en").get<std::string>(), HasSubstr("hits clamp 1"));
+  EXPECT_THAT(facts.at("contacts").at(0).at("message").at("it").get<std::string>(), HasSubstr("urta clamp 1"));
 }
 
 TEST_F(Surroundings, AreVerifiedAlikeByAnyNumberOfJobs) {

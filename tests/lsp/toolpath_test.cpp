@@ -117,7 +117,7 @@ TEST(Toolpath, HasWhatSurroundsTheProgram) {
   EXPECT_EQ(facts["scene"]["bodies"][0]["at"], Json::array({50, 0, 0}));
   EXPECT_EQ(facts["contacts"][0]["code"], "E152");
   EXPECT_EQ(facts["contacts"][0]["line"], 4);
-  EXPECT_EQ(facts["certificate"].get<std::string>().substr(0, 28), "verified: 2 motions, 1 conta");
+  EXPECT_EQ(facts["certificate"]["en"].get<std::string>().substr(0, 28), "verified: 2 motions, 1 conta");
 }
 
 TEST(Toolpath, TheProgramsParameterDecides) {

@@ -49,10 +49,13 @@ export const scene = (machine) => ({
 });
 
 export const contacts = [
-  { code: 'E152', severity: 'error', line: 4, endLine: 5, time: 3, endTime: 4.5, tool: 'T101001', who: 'holder', whom: 'clamp', point: [100, 20, 30], distance: -2.5, message: 'the holder of T101001 goes 2.5 mm into clamp <b>' },
-  { code: 'W154', severity: 'warning', line: 8, endLine: 8, time: 7.5, endTime: 8, tool: 'T102002', who: 'nose', whom: 'gantry', point: [40, 0, 200], distance: 1.2, message: 'the nose passes gantry at 1.2 mm' },
+  { code: 'E152', severity: 'error', line: 4, endLine: 5, time: 3, endTime: 4.5, tool: 'T101001', who: 'holder', whom: 'clamp', point: [100, 20, 30], distance: -2.5, message: { en: 'the holder of T101001 goes 2.5 mm into clamp <b>', it: 'il portautensile T101001 entra 2.5 mm in clamp <b>' } },
+  { code: 'W154', severity: 'warning', line: 8, endLine: 8, time: 7.5, endTime: 8, tool: 'T102002', who: 'nose', whom: 'gantry', point: [40, 0, 200], distance: 1.2, message: { en: 'the nose passes gantry at 1.2 mm', it: 'il naso passa a 1.2 mm da gantry' } },
 ];
-export const certificate = 'verified: 6 motions, 1 contact; nothing nearer than 0.01 mm is unseen';
+export const certificate = {
+  en: 'verified: 6 motions, 1 contact; nothing nearer than 0.01 mm is unseen',
+  it: 'verificato: 6 movimenti, 1 contatto; nulla di più vicino di 0.01 mm sfugge',
+};
 
 const arc = Array.from({ length: 12 }, (_, i) => {
   const angle = ((i + 1) / 12) * (Math.PI / 2) - Math.PI / 2;

@@ -125,7 +125,7 @@ test('contacts are listed, and a click brings the tool there and shows the line'
   assert.equal(await entries.count(), 2);
   assert.equal(await page.locator('#contacts-title').textContent(), 'Contacts: 2');
   assert.match(await entries.first().textContent(), /E152.*goes 2\.5 mm into clamp <b>.*line 4/);
-  assert.equal(await page.locator('#certificate').textContent(), certificate);
+  assert.equal(await page.locator('#certificate').textContent(), certificate.en);
   assert.equal(await page.locator('#ticks span').count(), 2);
   await entries.nth(1).click();
   assert.equal(await page.evaluate(() => globalThis.isocnc.player.time), 7.5);
@@ -145,13 +145,15 @@ test('contacts are listed, and a click brings the tool there and shows the line'
   }
 });
 
-test('the header counts contacts in the color of an error', async () => {
+test('the header counts contacts in the color of an error, and all is said in the language chosen', async () => {
   const page = pages.head;
   const outcome = page.locator('#outcome');
   assert.equal(await outcome.textContent(), 'ran to M02, 2 contacts');
   assert.equal(await outcome.getAttribute('class'), 'error');
   await page.locator('#language').click();
   assert.equal(await outcome.textContent(), 'eseguito fino a M02, 2 contatti');
+  assert.match(await page.locator('#contact-list button').first().textContent(), /E152.*entra 2\.5 mm in clamp <b>.*riga 4/);
+  assert.equal(await page.locator('#certificate').textContent(), certificate.it);
   await page.locator('#language').click();
 });
 

@@ -2,7 +2,8 @@
 import { byId, element } from './elements';
 import { clock } from './format';
 import { severities, severityOf, type Contact, type Severity } from './scene';
-import type { Texts } from './texts';
+import { texts as textsIn, type Language } from './texts';
+import type { Facts } from './toolpath';
 
 /** Entries that the list has; who fixes the first ones sees the next. */
 const maxEntries = 500;
@@ -20,16 +21,17 @@ export class ContactList {
   }
 
   /** Writes all of it; `seconds` is the length of the bar. */
-  write(contacts: Contact[], certificate: string | undefined, seconds: number, texts: Texts): void {
+  write({ contacts = [], certificate }: Pick<Facts, 'contacts' | 'certificate'>, seconds: number, language: Language): void {
+    const texts = textsIn[language];
     this.contacts = contacts;
     byId('verification').hidden = contacts.length === 0 && !certificate;
     byId('contacts').hidden = contacts.length === 0;
     byId('contacts-title').textContent = texts.contacts.replace('{}', String(contacts.length));
-    const entries = contacts.slice(0, maxEntries).map((contact, i) => this.entry(contact, i, texts));
+    const entries = contacts.slice(0, maxEntries).map((contact, i) => this.entry(contact, i, language));
     const rest = contacts.length - entries.length;
     if (rest > 0) entries.push(element('li', { className: 'more' }, texts.moreContacts.replace('{}', String(rest))));
     byId('contact-list').replaceChildren(...entries);
-    byId('certificate').textContent = certificate ?? '';
+    byId('certificate').textContent = certificate?.[language] ?? '';
     byId('certificate').hidden = !certificate;
     byId('ticks').replaceChildren(...this.ticks(seconds));
     this.light(this.lit);
@@ -50,7 +52,8 @@ export class ContactList {
       });
   }
 
-  private entry(contact: Contact, i: number, texts: Texts): HTMLElement {
+  private entry(contact: Contact, i: number, language: Language): HTMLElement {
+    const texts = textsIn[language];
     const severity = severityOf(contact);
     const kind = element('span', { className: `severity ${severity}` });
     kind.setAttribute('role', 'img');
@@ -60,7 +63,7 @@ export class ContactList {
       { type: 'button', title: texts.closer.replace('{}', clock(contact.time)) },
       kind,
       element('span', { className: 'code' }, contact.code),
-      element('span', { className: 'message' }, contact.message),
+      element('span', { className: 'message' }, contact.message[language]),
       element('span', { className: 'place' }, `${texts.line} ${contact.line}`),
     );
     button.addEventListener('click', () => this.onChoose(i));

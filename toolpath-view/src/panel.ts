@@ -354,8 +354,7 @@ export class Panel {
     this.stock?.write(this.path);
     this.hiding.write(this.path, texts);
     this.measuring?.write(texts);
-    const { contacts = [], certificate } = this.path.facts;
-    this.contacts.write(contacts, certificate, this.path.seconds, texts);
+    this.contacts.write(this.path.facts, this.path.seconds, this.language);
     this.lightContacts();
     if (!this.view) byId('stage').replaceChildren(element('p', { className: 'problem' }, texts.noWebgl));
     this.update();

@@ -95,7 +95,7 @@ export interface Contact {
   point: Vector;
   /** Negative is a depth. */
   distance: number;
-  message: string;
+  message: Record<'en' | 'it', string>;
 }
 
 /** The severity of a contact; one that is unknown counts as an error. */

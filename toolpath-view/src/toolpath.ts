@@ -44,7 +44,7 @@ export interface Facts {
   /** The stock that is cut, where a setup describes one and the run has been verified. */
   stock?: StockFacts;
   /** What has been verified, in a line of text. */
-  certificate?: string;
+  certificate?: Record<'en' | 'it', string>;
 }
 
 export interface Recording {
