@@ -131,6 +131,21 @@ Tile tile_of_mesh(const solids::Mesh& mesh, const DexelGrid& grid) {
   return {grid.columns, grid.rows, fill_between(crossings, grid)};
 }
 
+/// The grid of another blank may reach beyond the box.
+Tile tile_of_box(const solids::Cuboid& box, const DexelGrid& grid) {
+  const int first_column = grid.first_column(box.minimum.x());
+  const int last_column = grid.first_column(box.maximum.x());
+  const int first_row = grid.first_row(box.minimum.y());
+  const int last_row = grid.first_row(box.maximum.y());
+  if (first_column == 0 && first_row == 0 && last_column == grid.columns && last_row == grid.rows)
+    return {grid.columns, grid.rows, static_cast<float>(box.minimum.z()), static_cast<float>(box.maximum.z())};
+  std::vector<DexelInterval> material;
+  for (int row = first_row; row < last_row; ++row)
+    for (int column = first_column; column < last_column; ++column)
+      append({row, column}, {box.minimum.z(), box.maximum.z()}, material);
+  return {grid.columns, grid.rows, material};
+}
+
 Tile tile_of_cylinder(const solids::Cylinder& cylinder, const DexelGrid& grid) {
   const chords::FrustumChord chord({0, cylinder.radius, cylinder.height, cylinder.radius}, cylinder.at);
   std::vector<DexelInterval> material;
@@ -272,8 +287,7 @@ Tile tile_of(const Blank& blank, const DexelGrid& grid) {
   if (const auto* left = std::get_if<LeftStock>(&blank)) return tile_of_left(*left, grid);
   if (const auto* mesh = std::get_if<const solids::Mesh*>(&blank)) return tile_of_mesh(**mesh, grid);
   if (const auto* cylinder = std::get_if<solids::Cylinder>(&blank)) return tile_of_cylinder(*cylinder, grid);
-  const solids::Cuboid& box = std::get<solids::Cuboid>(blank);
-  return {grid.columns, grid.rows, static_cast<float>(box.minimum.z()), static_cast<float>(box.maximum.z())};
+  return tile_of_box(std::get<solids::Cuboid>(blank), grid);
 }
 
 }  // namespace isocnc::stock
