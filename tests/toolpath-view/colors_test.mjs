@@ -30,3 +30,15 @@ for (const [theme, { background, kinds }] of Object.entries(palettes))
     for (const kind of kinds) assert.ok(contrast(kind, background) >= minimumContrast, `${kind}: ${contrast(kind, background)}`);
     assert.equal(new Set(kinds.map(String)).size, kinds.length);
   });
+
+for (const [theme, { deviation, depth }] of Object.entries(palettes))
+  test(`${theme}: deviations and depths of the stock differ by lightness, not by hue alone`, () => {
+    const { left, within, gouged } = deviation;
+    // Green between blue and red must not be mistaken for either by those who see no green or no red.
+    for (const color of [left, gouged]) assert.ok(contrast(within, color) >= 2, `${color}: ${contrast(within, color)}`);
+    // Blue and red differ for all; the stronger of the two in blue is the one that is left.
+    assert.ok(left[2] > left[0] + 60 && gouged[0] > gouged[2] + 60);
+    const lightness = depth.map(luminance);
+    for (let i = 1; i < depth.length; ++i) assert.ok(lightness[i] < lightness[i - 1], 'deeper is darker');
+    assert.ok(contrast(depth[0], depth.at(-1)) >= 4);
+  });

@@ -99,6 +99,23 @@ test('the layer and its key leave it out', async () => {
   assert.equal(await page.locator('#layer-stock').isChecked(), true);
 });
 
+test('the path can be left out, and a click then finds the stock beneath it', async () => {
+  await page.getByRole('button', { name: 'Top' }).click();
+  await seek(page, 17);
+  const whole = await picture(page);
+  await page.locator('#stage').focus();
+  await page.keyboard.press('l');
+  assert.equal(await page.locator('#layer-path').isChecked(), false);
+  assert.ok((await picture(page)) !== whole);
+  assert.equal(await page.evaluate(() => globalThis.isocnc.view.pick(...Object.values(globalThis.isocnc.view.project([50, 20, 14])))), null);
+  await clickAt(page, [50, 20, 14]);
+  assert.equal(await currentLine(page), 4);
+  await page.keyboard.press('End');
+  await page.keyboard.press('l');
+  assert.ok((await picture(page)) === whole);
+  await page.getByRole('button', { name: 'Iso' }).click();
+});
+
 test('removed and remaining volume stand beside the time', async () => {
   assert.match(await page.locator('#totals').textContent(), /time0:17\.0.*removed99\.4 cm³.*remains333 cm³/);
 });

@@ -23,6 +23,7 @@ import { layerOf, ToolpathView, type Layer, type Look } from './toolpath_view';
 
 const looks: Look[] = ['iso', 'top', 'front', 'side'];
 const layers: [Layer, keyof Texts][] = [
+  ['path', 'path'],
   ['rapids', 'rapids'],
   ['tool', 'toolShown'],
   ['head', 'head'],
@@ -471,6 +472,7 @@ export class Panel {
       [['M'], texts.keyMeasure],
       [['N', texts.enter], texts.keyMeasurePlaces],
       [['H'], texts.keyHide],
+      [['L'], texts.keyPath],
       ...(this.path.facts.contacts?.length ? [[['E'], texts.keyContacts] as [string[], string]] : []),
       ...(this.stock?.isThere
         ? ([
@@ -599,6 +601,7 @@ export class Panel {
       m: () => this.measuring?.toggle(),
       h: () => this.toggleHiding(),
       e: () => this.walkContacts(shiftKey ? -1 : 1),
+      l: () => this.showLayer('path', !this.shown.path),
       p: () => void this.savePicture(),
       '?': () => byId<HTMLDialogElement>('keys').showModal(),
       ...this.stockKeys(shiftKey),

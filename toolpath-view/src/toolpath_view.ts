@@ -19,7 +19,7 @@ import { StockTimeline } from './stock_timeline';
 import { Kind, type Steps, type Toolpath, type Vector } from './toolpath';
 
 export type Look = 'iso' | 'top' | 'front' | 'side';
-export type Layer = 'rapids' | 'frames' | 'travel' | 'tool' | 'head' | 'stock' | 'grid' | 'ahead' | 'fixtures' | 'spoilboard' | 'target' | 'machine';
+export type Layer = 'path' | 'rapids' | 'frames' | 'travel' | 'tool' | 'head' | 'stock' | 'grid' | 'ahead' | 'fixtures' | 'spoilboard' | 'target' | 'machine';
 
 /** The layers of bodies that surround the program. */
 export const layerOf: Record<Role, Layer> = {
@@ -185,6 +185,7 @@ export class ToolpathView {
     this.lines.dispose();
     this.lines = new PathLines(path, this.center);
     this.lines.mesh.renderOrder = 1;
+    this.lines.mesh.visible = this.shown.path;
     this.scene.add(this.lines.mesh);
     this.centers = null;
     this.surround();
@@ -304,6 +305,7 @@ export class ToolpathView {
 
   show(layer: Layer, is: boolean): void {
     this.shown[layer] = is;
+    this.lines.mesh.visible = this.shown.path;
     this.frames.visible = this.shown.frames;
     if (this.travel) this.travel.visible = this.shown.travel;
     if (this.grid) this.grid.visible = this.shown.grid;
@@ -423,7 +425,7 @@ export class ToolpathView {
   /** The line that a place on the canvas shows, pixels of the page; of those that are as near the foremost. */
   pick(x: number, y: number, reach = 1): Hit | null {
     const { path, center } = this;
-    if (path.stepCount === 0) return null;
+    if (path.stepCount === 0 || !this.shown.path) return null;
     const [width, height] = [this.container.clientWidth, this.container.clientHeight];
     this.camera.updateMatrixWorld();
     const m = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse).elements;
@@ -465,7 +467,7 @@ export class ToolpathView {
       const depth = m[2] * px + m[6] * py + m[10] * pz + m[14];
       if (!best || distance < best.distance - 2 || (distance < best.distance + 2 && depth < best.depth)) best = { snap: snap(), distance, depth };
     };
-    for (let step = 0; step < path.stepCount; ++step) {
+    for (let step = 0; step < path.stepCount && this.shown.path; ++step) {
       if (!this.isShown(step)) continue;
       for (const point of [path.stepStart[step], path.stepStart[step + 1]]) {
         if (!this.isAtShownHeight(point, 1)) continue;
@@ -497,6 +499,7 @@ export class ToolpathView {
     this.lines.dispose();
     this.lit?.dispose();
     this.surroundings?.dispose();
+    this.cutStock?.dispose();
     this.measure.dispose();
     this.renderer.dispose();
     this.canvas.remove();
@@ -704,6 +707,7 @@ export class ToolpathView {
         if (at) this.centers.push({ at, kind: 'center', line: path.stepLine[step] });
       }
     }
+    if (!this.shown.path) return [];
     // Centers of arcs of the same line that are hidden are hidden, too.
     return this.centers.filter(({ line }) => this.isShown(path.stepsOf(line!).start));
   }
@@ -715,7 +719,7 @@ export class ToolpathView {
     this.travel = travel(this.path, this.theme);
     if (this.travel) this.travel.userData.height = this.travel.position.z;
     const { min, max } = this.path.work ?? this.path;
-    const floor = Math.min(min[2], this.floor);
+    const floor = Math.min(min[2], this.floor, this.cutStock?.bounds().min.z ?? Infinity);
     this.grid = grid(new THREE.Vector3(min[0], min[1], floor), new THREE.Vector3(...max), this.theme);
     this.stock = stock(this.stockKnown ?? this.path.work, this.theme);
     for (const each of [this.frames, this.travel, this.grid, this.stock]) if (each) this.world.add(each);
