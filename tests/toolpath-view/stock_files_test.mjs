@@ -168,6 +168,7 @@ test('the deviation from the part is that of its heights nearby', () => {
   assert.equal(deviationAt(target, at(50, 20), 14_000), 2000);
   // Between two heights of the part, a wall is right at any height.
   for (const height of [8000, 12_000, 18_000]) assert.equal(deviationAt(target, at(98.5, 80), height), 0);
+  for (const place of [at(97.5, 80), at(50, 97.5), at(50, 98.5), at(11.5, 40), at(12.5, 80)]) assert.equal(deviationAt(target, place, 12_000), 0, `dexel ${place}`);
   assert.equal(deviationAt(target, at(98.5, 80), 18_400), 400);
   assert.equal(deviationAt(target, at(120, 50), 1000), Infinity);
 });

@@ -96,6 +96,15 @@ test('a hollow of a ball looks like one, and the edge of a pocket stays sharp', 
     }
 });
 
+test('a chamfer is a slope from its first dexel on, and no stairs', () => {
+  const chamfer = dexelsOf(20, 20, (x) => [[x < 10 ? 10_000 : 10_000 - 700 * (x - 9), -10_000]]);
+  for (const { positions, normals } of surfacesOf(chamfer))
+    for (let corner = 0; corner < positions.length / 3; ++corner) {
+      const isInside = [0, 1].every((k) => positions[3 * corner + k] > 0.5 && positions[3 * corner + k] < 19.5);
+      if (isInside) assert.notEqual(normals[4 * corner + 2], 0, `a wall at X${positions[3 * corner]}`);
+    }
+});
+
 /** Tiles of dexels, with what has been drawn of each. */
 function tilesOf(dexels) {
   const builder = new SurfaceBuilder(dexels, stockFacts(dexels.columns, dexels.rows));

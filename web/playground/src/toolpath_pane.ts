@@ -2,7 +2,7 @@
 import { byId, element } from '../../../toolpath-view/src/elements';
 import { Panel } from '../../../toolpath-view/src/panel';
 import { Toolpath, type Recording } from '../../../toolpath-view/src/toolpath';
-import { applied, streamNames, type Patches, type SentToolpath } from '../../../toolpath-view/src/streams';
+import { applied, received, type SentToolpath } from '../../../toolpath-view/src/streams';
 import type { MachinePosition } from '../../../toolpath-view/src/machine_position';
 import { RequestError, textDocument, type LanguageServer } from './language_server';
 import type { Theme } from './preferences';
@@ -102,10 +102,7 @@ export class ToolpathPane {
   }
 
   private take(sent: SentToolpath): void {
-    const patches = Object.fromEntries(
-      streamNames.map((name) => [name, { ...sent[name], data: bytesOf(sent[name].data) }]),
-    ) as Patches;
-    this.recording = applied(this.recording, sent.facts, patches);
+    this.recording = applied(this.recording, sent.facts, received(sent, bytesOf));
     this.resultId = sent.resultId;
     const path = new Toolpath(this.recording);
     if (this.panel) this.panel.take(path);
