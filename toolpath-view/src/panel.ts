@@ -352,6 +352,7 @@ export class Panel {
     this.writeLayers();
     this.writeLegend();
     this.writeKeys();
+    byId('saving').hidden = !this.view;
     this.stock?.write(this.path);
     this.hiding.write(this.path, texts);
     this.measuring?.write(texts);
