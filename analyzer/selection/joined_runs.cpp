@@ -31,6 +31,7 @@ JoinedRuns::Identity JoinedRuns::identity_of(const RunFinding& each) {
 void JoinedRuns::add(RunOutcome outcome) {
   const RunSet run = RunSet{1} << joined_.runs.size();
   joined_.has_scene = outcome.has_scene;
+  joined_.has_stock = outcome.has_stock;
   joined_.runs.insert(joined_.runs.end(), outcome.runs.begin(), outcome.runs.end());
   std::map<std::int32_t, std::int32_t> mistakes;  // The numbers of this run's mistakes among those of all runs.
   for (RunFinding& each : outcome.findings) {

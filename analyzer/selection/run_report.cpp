@@ -55,9 +55,17 @@ static bool has_come_to(const simulation::TakenPath& run, const LocatedFinding& 
 }
 
 Report without_tips(Report report, const simulation::RunOutcome& run, const Selection& selection) {
-  if (!selection.shows("joint-travel"_diag)) return report;
+  // Where the spindle stands in the material, E158 says it better than W102 on the first feed.
+  const bool has_cut_standing = selection.shows("cuts-with-spindle-stopped"_diag) &&
+                                std::any_of(run.findings.begin(), run.findings.end(), [](const auto& each) {
+                                  return each.finding.id == "cuts-with-spindle-stopped"_diag;
+                                });
+  const auto is_judged_by_runs = [&](dialect::DiagnosticId id) {
+    if (id == "travel-exceeded"_diag) return selection.shows("joint-travel"_diag);
+    return id == "spindle-stopped-feed"_diag && has_cut_standing;
+  };
   std::erase_if(report.findings, [&](const LocatedFinding& located) {
-    return located.finding.id == "travel-exceeded"_diag &&
+    return is_judged_by_runs(located.finding.id) &&
            std::any_of(run.runs.begin(), run.runs.end(),
                        [&](const simulation::TakenPath& taken) { return has_come_to(taken, located, report); });
   });
@@ -72,7 +80,10 @@ static LookedFor looked_for_by(const simulation::RunOutcome& run) {
   return [&run, is_whole](dialect::DiagnosticId id, std::optional<std::size_t> line) {
     const bool takes_scene =
         id == "hits-fixture"_diag || id == "hits-machine"_diag || id == "near-miss"_diag || id == "gouges-part"_diag;
-    if (!is_whole || (takes_scene && !run.has_scene)) return false;
+    const bool takes_stock = id == "rapid-in-material"_diag || id == "holder-in-material"_diag ||
+                             id == "cuts-with-spindle-stopped"_diag || id == "material-left"_diag ||
+                             id == "cut-too-deep"_diag || id == "cuts-nothing"_diag || id == "loose-piece"_diag;
+    if (!is_whole || (takes_scene && !run.has_scene) || (takes_stock && !run.has_stock)) return false;
     return !line || std::any_of(run.runs.begin(), run.runs.end(),
                                 [&](const simulation::TakenPath& taken) { return taken.has_executed(*line); });
   };

@@ -27,7 +27,9 @@ check::Report shown_report_with_run(check::Report found, const simulation::RunOu
                                     const syntax::Document& document, Suppressions comments,
                                     const Selection& selection);
 
-/// Removes what a check concludes from the tip (W130) where the run has compared the joints, if that is selected.
+/// Removes what the run judges better, on the lines that it has executed: what a check concludes from the tip (W130)
+/// where the run has compared the joints, and the stopped spindle (W102) where the run has found it cutting (E158); if
+/// these are selected.
 check::Report without_tips(check::Report report, const simulation::RunOutcome& run, const Selection& selection);
 
 /// The findings of a run alone that are shown: those that are selected and that no comment of the program suppresses.

@@ -50,6 +50,7 @@ struct RunOutcome {
   std::vector<TakenPath> runs;                  ///< One for each run.
   std::vector<std::vector<RunDecision>> paths;  ///< What leads to findings that the first run does not have.
   bool has_scene = false;  ///< Whether what surrounds the machine was known: contacts were looked for.
+  bool has_stock = false;  ///< Whether the material was cut as well.
 };
 
 /// What the machine shows of a program: joints outside their travel (E160), gouges of the cutter compensation (W138 to

@@ -130,6 +130,7 @@ VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier,
                                        .origin = material->workpiece().origin};
   if (result.ending == running::Ending::Error) verified.certificate->stopped_at = result.line;
   verified.outcome.has_scene = true;
+  verified.outcome.has_stock = verifier.material() != nullptr;
   add_findings(verified.outcome, verified.contacts, *verified.certificate, text);
   return verified;
 }
