@@ -114,6 +114,7 @@ std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Work
     TilePointer changed;  // Once there is a cut.
     const auto units = bins.units_of(index);
     bool is_cut = false;
+    const UnitSweep* before = nullptr;  // The last one that has cut.
     for (std::size_t i = 0; i < units.size(); ++i) {
       const UnitSweep& unit = divided.units()[units[i]];
       const Sweep& sweep = sweeps[unit.sweep];
@@ -122,7 +123,7 @@ std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Work
       DexelCount& count = counts[bins.start_of(index) + i];
       if (sweep.purpose == SweepPurpose::Ask) {
         DexelSink sink(present, part);
-        divided.apply(unit, sink);
+        divided.apply(unit, nullptr, sink);
         count = sink.count();
         continue;
       }
@@ -132,9 +133,10 @@ std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Work
         changed->prepare();
       }
       DexelSink sink(*changed, part, sweep.tag);
-      divided.apply(unit, sink);
+      divided.apply(unit, before, sink);
+      before = &unit;
       count = sink.count();
-      is_cut |= count.length > 0;
+      is_cut |= count.row >= 0;
     }
     if (!is_cut) return;
     changed->tighten();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 
 namespace isocnc::stock {
 
@@ -11,6 +12,13 @@ constexpr std::size_t kDexels = static_cast<std::size_t>(Tile::kSize) * Tile::kS
 constexpr CutTag kUncut = 0xFFFFFFFF;
 constexpr int kLanes = 8;
 using Lanes = Eigen::Array<float, kLanes, 1>;
+
+/// A length in steps of 2^-30 mm. Sums of such lengths are exact below 2^22 mm, so they do not depend on the order, or
+/// on which dexels are looked at together.
+double stepped(float length) {
+  constexpr double kSteps = 1.5 * (1 << 22);
+  return (static_cast<double>(length) + kSteps) - kSteps;
+}
 
 void note_deepest(DexelCount& count, int row, int column, float depth, float bottom) {
   if (!(depth > count.depth)) return;
@@ -160,7 +168,7 @@ void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, D
   if (!(bottom < top)) return;
   if (bottom - old_bottom < kSkin) bottom = old_bottom;
   if (old_top - top < kSkin) top = old_top;
-  count.length += top - bottom;
+  count.length += stepped(top - bottom);
   note_deepest(count, row, column, top - bottom, bottom);
   tags_[at] = tag;
   if (top == old_top) {
@@ -198,7 +206,7 @@ void Tile::cut_dexel_of_many(int row, int column, float bottom, float top, CutTa
   cut(bottom_at(at), tops_[at]);
   for (auto each = first; each != last; ++each) cut(each->bottom, each->top);
   if (!(removed > 0)) return;
-  count.length += removed;
+  count.length += stepped(removed);
   note_deepest(count, row, column, removed, lowest);
   tags_[at] = tag;
   const auto place = all.erase(first, last);
@@ -220,7 +228,7 @@ void Tile::cut_from_above(int row, int first, int last, const float* bottoms, fl
   CutTag* const tags = tags_.data() + start;
   const float* const floors = bottoms_.empty() ? nullptr : bottoms_.data() + start;
   const int size = last - first;
-  Lanes sum = Lanes::Zero();
+  std::array<double, kLanes> sums{};
   const auto note = [&](int from, int number, const float* removed, const float* after) {
     for (int i = 0; i < number; ++i) note_deepest(count, row, first + from + i, removed[i], after[i]);
   };
@@ -232,24 +240,24 @@ void Tile::cut_from_above(int row, int first, int last, const float* bottoms, fl
     bound = floors ? Lanes(bound.max(Eigen::Map<const Lanes>(floors + i))) : Lanes(bound.max(bottom_));
     const Lanes after = top.min(bound);
     const Lanes removed = top - after;
-    sum += removed;
     top = after;
     const float* const lane = removed.data();
     CutTag* const tag_lane = tags + i;
+    for (std::size_t k = 0; k < kLanes; ++k) sums[k] += stepped(lane[k]);
     for (int k = 0; k < kLanes; ++k) tag_lane[k] = lane[k] > 0 ? tag : tag_lane[k];
     if (removed.maxCoeff() > count.depth) note(i, kLanes, removed.data(), after.data());
   }
-  float rest = 0;
+  double rest = 0;
   for (; i < size; ++i) {
     const float bound = std::max(bottoms ? bottoms[i] : lowest, floors ? floors[i] : bottom_);
     if (!(tops[i] > bound)) continue;
     const float removed = tops[i] - bound;
-    rest += removed;
+    rest += stepped(removed);
     tops[i] = bound;
     tags[i] = tag;
     note(i, 1, &removed, &bound);
   }
-  for (int k = 0; k < kLanes; ++k) rest += sum[k];
+  for (const double sum : sums) rest += sum;
   count.length += rest;
 }
 
@@ -291,7 +299,7 @@ void Tile::meet_dexel(int row, int column, float bottom, float top, DexelCount& 
       for (const LowerInterval& interval : lower_[static_cast<std::size_t>(row)])
         if (interval.column == column) meet(interval.bottom, interval.top);
   }
-  count.length += met;
+  count.length += stepped(met);
   note_deepest(count, row, column, met, lowest);
 }
 

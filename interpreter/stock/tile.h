@@ -18,7 +18,7 @@ using CutTag = std::uint32_t;
 
 /// What one sweep removes from the dexels of a tile, or meets in them.
 struct DexelCount {
-  double length = 0;  ///< Sum over the dexels, mm.
+  double length = 0;  ///< Sum over the dexels, mm, each in steps of 2^-30 mm.
   float depth = 0;    ///< Greatest length in one dexel, mm.
   int row = -1;       ///< Dexel of the greatest length.
   int column = -1;    ///< Dexel of the greatest length.

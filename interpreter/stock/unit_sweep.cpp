@@ -257,11 +257,13 @@ void UnitSweeps::append_turn(const TurningPath& path, std::size_t piece_index) {
   }
 }
 
-void UnitSweeps::apply(const UnitSweep& unit, DexelSink& sink) const {
+void UnitSweeps::apply(const UnitSweep& unit, const UnitSweep* before, DexelSink& sink) const {
   const SweptShape& shape = shapes_[unit.shape];
   const auto& columns = unit.is_upside_down ? shape.turned_over : shape.columns;
   if (const auto* line = std::get_if<UprightLine>(&unit.motion)) {
-    for (const RevolvedColumn& column : columns) sweep(column, *line, sink);
+    const bool is_same = before && before->shape == unit.shape && before->is_upside_down == unit.is_upside_down;
+    const auto* line_before = is_same ? std::get_if<UprightLine>(&before->motion) : nullptr;
+    for (const RevolvedColumn& column : columns) sweep(column, *line, line_before, sink);
   } else if (const auto* arc = std::get_if<LevelArc>(&unit.motion)) {
     for (const RevolvedColumn& column : columns) sweep(column, *arc, sink);
   } else {

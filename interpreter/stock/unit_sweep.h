@@ -55,8 +55,9 @@ class UnitSweeps {
 
   std::span<const UnitSweep> units() const { return units_; }
   const SweptShape& shape_of(const UnitSweep& unit) const { return shapes_[unit.shape]; }
-  /// Cuts the dexels of a sink by a unit, or counts what it meets.
-  void apply(const UnitSweep& unit, DexelSink& sink) const;
+  /// Cuts the dexels of a sink by a unit, or counts what it meets. `before`, if any, is a unit that has cut them
+  /// already; if that was a motion to the start of this one, half of the dexels need not be looked at.
+  void apply(const UnitSweep& unit, const UnitSweep* before, DexelSink& sink) const;
 
  private:
   void append(const Sweep& sweep, std::uint32_t index);

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "interpreter/stock/flat_line.h"
+#include "interpreter/stock/slope_sweep.h"
+
 namespace isocnc::stock {
 
 using chords::LowerSurface;
@@ -17,12 +20,6 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 using Squares = std::array<double, Tile::kSize>;
-
-/// The half chord of a circle at a distance from its center; negative if there is none.
-double half_chord(double radius, double aside) {
-  const double square = radius * radius - aside * aside;
-  return square >= 0 ? std::sqrt(square) : -1.0;
-}
 
 /// Sets the heights of a row from the squares of the distances between its dexels and the path, for a path at one
 /// height or a plunge. Heights are rounded by a relative 2^-24 in the safe direction.
@@ -41,8 +38,21 @@ class DistanceRow {
   }
 
  private:
+  static constexpr double kUp = 6.0e-8;  ///< Rounds to a float that is not lower.
+
   static void fill(const std::vector<LowerSurface>& surfaces, double origin, const double* squares, int size,
                    float* heights) {
+    if (const LowerSurface& ball = surfaces.front();
+        surfaces.size() == 1 && ball.kind == Kind::Round && ball.middle == 0 && ball.start == 0) {
+      const double middle = ball.z + origin;
+      const double square = ball.rounding * ball.rounding;
+      for (int i = 0; i < size; ++i) {
+        const double rest = square - squares[i];
+        const double height = middle - square_root(rest);
+        heights[i] = static_cast<float>(height + std::abs(height) * kUp);
+      }
+      return;
+    }
     std::array<double, Tile::kSize> lowest;
     if (surfaces.size() == 1) {  // It reaches as far as the column.
       fill(surfaces.front(), squares, size, lowest.data());
@@ -58,7 +68,6 @@ class DistanceRow {
           lowest_of[i] = squares[i] <= limit && other_of[i] < lowest_of[i] ? other_of[i] : lowest_of[i];
       }
     }
-    constexpr double kUp = 6.0e-8;
     const double* const from = lowest.data();
     for (int i = 0; i < size; ++i) {
       const double height = from[i] + origin;
@@ -80,17 +89,12 @@ class DistanceRow {
         const double r = std::sqrt(square[i]);
         heights[i] = z + slope * (r > start ? r - start : 0.0);
       }
-    } else if (middle == 0 && start == 0) {
-      for (int i = 0; i < size; ++i) {
-        const double rest = rounding - square[i];
-        heights[i] = z - std::sqrt(rest > 0 ? rest : 0.0);
-      }
     } else {
       for (int i = 0; i < size; ++i) {
         const double r = std::sqrt(square[i]);
         const double out = (r > start ? r : start) - middle;
         const double rest = rounding - out * out;
-        heights[i] = z - std::sqrt(rest > 0 ? rest : 0.0);
+        heights[i] = z - square_root(rest);
       }
     }
   }
@@ -98,63 +102,6 @@ class DistanceRow {
   const RevolvedColumn& column_;
   HeightInterval origin_;
   DexelSink& sink_;
-};
-
-/// The path of a line in the plane, with the body's radius.
-struct FlatLine {
-  Vec2 start;
-  Vec2 stop;
-  Vec2 direction;  ///< Unit vector; any if the length is 0.
-  double length;
-  double radius;
-
-  FlatLine(const Vec3& from, const Vec3& to, double body_radius)
-      : start(from.head<2>()), stop(to.head<2>()), direction(1, 0), radius(body_radius) {
-    const Vec2 along = stop - start;
-    length = along.norm();
-    if (length > 0) direction = along / length;
-    has_sides_ = length > 0 && std::abs(direction.y()) >= 1e-12;  // Else both ends reach as far.
-    if (!has_sides_) return;
-    is_steep_ = std::abs(direction.x()) < 1e-12;
-    shear_ = direction.x() / direction.y();
-    half_width_ = radius / std::abs(direction.y());
-    if (!is_steep_) lean_ = direction.y() / direction.x();
-    if (!is_steep_) end_ = length / direction.x();
-  }
-
-  /// The x of all points at the height y that are nearer than the radius to the line: those near either end, and those
-  /// beside it.
-  HeightInterval row(double y) const {
-    HeightInterval x;
-    const double first = half_chord(radius, y - start.y());
-    if (first >= 0) x.include({start.x() - first, start.x() + first});
-    const double last = half_chord(radius, y - stop.y());
-    if (last >= 0) x.include({stop.x() - last, stop.x() + last});
-    if (has_sides_) x.include(beside(y - start.y()));
-    return x;
-  }
-
- private:
-  /// |u d_y - rise d_x| <= radius and 0 <= u d_x + rise d_y <= length, for u = x - start.x.
-  HeightInterval beside(double rise) const {
-    const double middle = rise * shear_;
-    HeightInterval u{middle - half_width_, middle + half_width_};
-    if (is_steep_) {
-      if (rise * direction.y() < 0 || rise * direction.y() > length) return {};
-    } else {
-      const double one = -rise * lean_;
-      const double other = one + end_;
-      u.clip({std::min(one, other), std::max(one, other)});
-    }
-    return u.bottom <= u.top ? HeightInterval{u.bottom + start.x(), u.top + start.x()} : HeightInterval();
-  }
-
-  bool has_sides_ = false;
-  bool is_steep_ = false;
-  double shear_ = 0;
-  double half_width_ = 0;
-  double lean_ = 0;
-  double end_ = 0;
 };
 
 /// The squares of the distances of `size` dexels of a row from a line. `u` and `rise` lead from the start of the line
@@ -172,12 +119,70 @@ void measure(const FlatLine& path, double u, double step, double rise, int size,
   }
 }
 
+bool is_left(const Vec3& one, const Vec3& other) {
+  for (int i = 0; i < 3; ++i)
+    if (one[i] != other[i]) return one[i] < other[i];
+  return true;
+}
+
+/// Where a level motion of a body surely finds nothing, since the one before it has ended where it starts: the dexels
+/// to which no point of the motion is nearer than its start, if a point of the motion before is. These are as long as
+/// they would be if they were taken, to the last bit.
+class ClearedRow {
+ public:
+  ClearedRow(bool is_flat, const UprightLine& line, const UprightLine* before) : start_(line.from.head<2>()) {
+    if (!before || before->to != line.from || before->from.z() != line.from.z() || line.to.z() != line.from.z()) return;
+    direction_ = (line.to - line.from).head<2>();
+    direction_before_ = (before->to - before->from).head<2>();
+    const double length = direction_.norm();
+    const double length_before = direction_before_.norm();
+    if (!is_flat && !(length > 0 && length_before > kMargin)) return;
+    direction_ /= length;
+    direction_before_ /= length_before;
+    is_known_ = true;
+  }
+
+  bool is_known() const { return is_known_; }
+  /// The x in the row at y. Of a flat body, it is the chord near the start.
+  HeightInterval of(double y) const {
+    const double rise = y - start_.y();
+    HeightInterval x{-kNever, kNever};
+    clip_behind(direction_, rise, x);
+    clip_behind(direction_before_, rise, x);
+    return x.is_empty() ? HeightInterval() : HeightInterval{x.bottom + start_.x(), x.top + start_.x()};
+  }
+
+ private:
+  /// Far more than rounding can move a point, mm.
+  static constexpr double kMargin = 0.001;
+
+  /// Leaves the x at which (x, rise) is behind the start by more than the margin.
+  static void clip_behind(const Vec2& direction, double rise, HeightInterval& x) {
+    const double along = rise * direction.y() + kMargin;
+    if (std::abs(direction.x()) < 1e-6) {
+      if (!(along + kMargin < 0)) x = {};
+    } else if (direction.x() > 0) {
+      x.clip({-kNever, -along / direction.x()});
+    } else {
+      x.clip({-along / direction.x(), kNever});
+    }
+  }
+
+  Vec2 start_;
+  Vec2 direction_ = Vec2::Zero();
+  Vec2 direction_before_ = Vec2::Zero();
+  bool is_known_ = false;
+};
+
+constexpr int kGroup = 8;  ///< Dexels that are looked at together.
+using RowGroup = Eigen::Array<float, kGroup, 1>;
+
+bool are_at_most(float height, const float* tops) { return Eigen::Map<const RowGroup>(tops).maxCoeff() <= height; }
+
 /// Tells for eight dexels at once, without a square root, that they surely end below a ball that moves along a level
 /// line. In short moves most dexels do, since the moves before have cut them.
 class BallTest {
  public:
-  static constexpr int kGroup = 8;
-
   BallTest(const RevolvedColumn& column, const FlatLine& path, const HeightInterval& origin, double step) {
     const LowerSurface& lower = column.lower.front();
     is_usable_ = column.lower.size() == 1 && column.is_flat_above() && lower.kind == Kind::Round && lower.middle == 0 &&
@@ -205,7 +210,6 @@ class BallTest {
   }
 
  private:
-  using RowGroup = Eigen::Array<float, kGroup, 1>;
   Eigen::Vector2f direction_;
   float length_;
   float middle_;
@@ -213,39 +217,6 @@ class BallTest {
   RowGroup steps_;
   bool is_usable_;
 };
-
-bool is_left(const Vec3& one, const Vec3& other) {
-  for (int i = 0; i < 3; ++i)
-    if (one[i] != other[i]) return one[i] < other[i];
-  return true;
-}
-
-void sweep_slope(const RevolvedColumn& column, const FlatLine& path, double from_z, double to_z, DexelSink& sink) {
-  const DexelGrid& grid = sink.grid();
-  const double pitch = (to_z - from_z) / path.length;
-  const double stop = path.stop.y();
-  const int last_row = grid.first_row(std::max(path.start.y(), stop) + column.radius);
-  for (int row = grid.first_row(std::min(path.start.y(), stop) - column.radius); row < last_row; ++row) {
-    const double y = grid.y(row);
-    const HeightInterval x = path.row(y);
-    const int first = grid.first_column(x.bottom);
-    const int last = std::max(first, grid.first_column(x.top));
-    for (int i = first; i < last; ++i) {
-      const Vec2 point = Vec2(grid.x(i), y) - path.start;
-      const double foot = point.dot(path.direction);
-      const double aside = std::abs(point.x() * path.direction.y() - point.y() * path.direction.x());
-      const double base = from_z + pitch * foot;
-      double bottom = kNever;
-      for (const LowerSurface& surface : column.lower)
-        bottom = std::min(bottom, surface.lowest(aside, pitch, -foot, path.length - foot));
-      double top = kNever;
-      for (const LowerSurface& surface : column.upper)
-        top = std::min(top, surface.lowest(aside, -pitch, -foot, path.length - foot));
-      sink.set(i - first, {base + bottom, base - top});
-    }
-    sink.take_row(row, first, last);
-  }
-}
 
 /// The runs of a row that an arc covers, at most four.
 class ArcRow {
@@ -313,7 +284,7 @@ double cross(const Vec2& one, const Vec2& other) { return one.x() * other.y() - 
 
 }  // namespace
 
-void sweep(const RevolvedColumn& column, const UprightLine& line, DexelSink& sink) {
+void sweep(const RevolvedColumn& column, const UprightLine& line, const UprightLine* before, DexelSink& sink) {
   const bool is_forward = is_left(line.from, line.to);
   const Vec3& from = is_forward ? line.from : line.to;
   const Vec3& to = is_forward ? line.to : line.from;
@@ -326,30 +297,54 @@ void sweep(const RevolvedColumn& column, const UprightLine& line, DexelSink& sin
   DistanceRow heights(column, origin, sink);
   const BallTest ball(column, path, origin, grid.spacing.x());
   const bool reaches_above = origin.top + column.top >= sink.ceiling();
-  Squares squares{};
+  const ClearedRow cleared(is_flat, line, sink.cuts() ? before : nullptr);
+  const auto lowest = static_cast<float>(origin.bottom + column.bottom);
+  Squares squares;
+  FlatLine::Rows rows;
+  const int first_row = grid.first_row(std::min(from.y(), to.y()) - column.radius);
   const int last_row = grid.first_row(std::max(from.y(), to.y()) + column.radius);
-  for (int row = grid.first_row(std::min(from.y(), to.y()) - column.radius); row < last_row; ++row) {
+  path.find(grid, first_row, last_row - first_row, rows);
+  for (int row = first_row; row < last_row; ++row) {
     const double y = grid.y(row);
-    const HeightInterval x = path.row(y);
-    const int first = grid.first_column(x.bottom);
-    const int last = grid.first_column(x.top);
-    if (first >= last) continue;
-    if (is_flat) {
-      sink.take_run(row, first, last, {origin.bottom + column.bottom, origin.top + column.top});
-      continue;
-    }
+    const auto at = static_cast<std::size_t>(row - first_row);
+    const HeightInterval x{rows.bottom[at], rows.top[at]};
+    if (!(x.bottom < x.top)) continue;
     const double rise = y - path.start.y();
     const double start = grid.first.x() - path.start.x();
     const double step = grid.spacing.x();
-    const auto take = [&](int from, int to) {
-      measure(path, start + from * step, step, rise, to - from, squares.data());
-      heights.take(row, from, to, squares.data());
+    const auto take = [&](int from_column, int to_column) {
+      measure(path, start + from_column * step, step, rise, to_column - from_column, squares.data());
+      heights.take(row, from_column, to_column, squares.data());
     };
-    const float* const tops = reaches_above && ball.is_usable() ? sink.tops_to_cut(row, first) : nullptr;
-    int done = first;
-    for (int i = first; tops && i + BallTest::kGroup <= last; i += BallTest::kGroup, done = i)
-      if (!ball.are_below(tops + (i - first), start + i * step, rise)) take(i, i + BallTest::kGroup);
-    if (done < last) take(done, last);
+    const auto take_all = [&](int first, int last) {
+      if (first >= last) return;
+      if (is_flat) return sink.take_run(row, first, last, {origin.bottom + column.bottom, origin.top + column.top});
+      const float* const tops = reaches_above ? sink.tops_to_cut(row, first) : nullptr;
+      int waiting = first;  // From here on, dexels are to be taken.
+      for (int i = first; tops && i + kGroup <= last; i += kGroup) {
+        const float* const group = tops + (i - first);
+        if (!(ball.is_usable() ? ball.are_below(group, start + i * step, rise) : are_at_most(lowest, group))) continue;
+        if (waiting < i) take(waiting, i);
+        waiting = i + kGroup;
+      }
+      if (waiting < last) take(waiting, last);
+    };
+    const int first = grid.first_column(x.bottom);
+    const int last = grid.first_column(x.top);
+    if (first >= last) continue;
+    HeightInterval done;
+    if (cleared.is_known() && is_flat) {
+      done = is_forward ? HeightInterval{rows.start_bottom[at], rows.start_top[at]}
+                        : HeightInterval{rows.stop_bottom[at], rows.stop_top[at]};
+    } else if (cleared.is_known()) {
+      done = cleared.of(y);
+    }
+    if (done.is_empty()) {
+      take_all(first, last);
+    } else {
+      take_all(first, std::min(last, grid.first_column(done.bottom)));
+      take_all(std::max(first, grid.first_column(done.top)), last);
+    }
   }
 }
 

@@ -24,7 +24,8 @@ struct LevelArc {
   double z = 0;
 };
 
-void sweep(const RevolvedColumn& column, const UprightLine& line, DexelSink& sink);
+/// `before`, if any, is a motion of the same body that has cut these dexels already.
+void sweep(const RevolvedColumn& column, const UprightLine& line, const UprightLine* before, DexelSink& sink);
 void sweep(const RevolvedColumn& column, const LevelArc& arc, DexelSink& sink);
 
 }  // namespace isocnc::stock

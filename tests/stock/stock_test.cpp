@@ -71,6 +71,39 @@ TEST(Stock, IsTheSameForAnyDivisionIntoCalls) {
   expect_same(divided, whole);
 }
 
+/// What the motion before has cut need not be looked at again, and nothing else may be left out. Short moves of one
+/// tool, some of them along the grid, some back, some after a jump.
+TEST(Stock, ContinuedMotionsAreTheSameForAnyDivisionIntoCalls) {
+  const std::vector<RevolvedBody> tools = {flat(6, 50), ball(6, 50), body(solids::bull_body(6, 2, 50)),
+                                           body(solids::drill_body(6, 118, 50)), body(solids::disc_body(6, 3))};
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    support::Random random(tool);
+    std::vector<Sweep> sweeps;
+    Vec3 at(40, 40, -5);
+    double heading = 0;
+    for (CutTag i = 0; i < 300; ++i) {
+      heading = random.one_in(8) ? random.real(0, 2 * pi) : heading + random.real(-0.5, 0.5);
+      Vec3 to = at + random.real(0, 2) * Vec3(std::cos(heading), std::sin(heading), 0);
+      if (random.one_in(4)) to = at + Vec3(random.between(-2, 2), random.between(-2, 2), 0);
+      if (random.one_in(15)) to.z() = random.real(-8, -4);
+      if (random.one_in(15)) at.x() += 0.5;
+      to.head<2>() = to.head<2>().cwiseMax(20).cwiseMin(60);
+      sweeps.push_back(line(tools[tool], at, to, {0, 0, 1}, i));
+      at = to;
+    }
+    for (const double spacing : {0.5, 0.37}) {
+      Stock whole(box({0, 0, -18}, {80, 80, 0}), spacing);
+      const auto outcomes = whole.apply(sweeps);
+      Stock divided(box({0, 0, -18}, {80, 80, 0}), spacing);
+      std::vector<SweepOutcome> of_parts;
+      for (const Sweep& sweep : sweeps) of_parts.push_back(apply(divided, sweep));
+      expect_same(of_parts, outcomes);
+      expect_same(divided, whole);
+      if (HasFailure()) return;
+    }
+  }
+}
+
 TEST(Stock, OutcomesAddUpToWhatIsMissing) {
   const SomeSweeps source;
   Stock stock(kPlate, 0.7);
