@@ -72,7 +72,7 @@ function deviation(moves, depth, spacing) {
   let cells = 0;
   for (const { radius, from, to } of moves)
     cells += (2 * Math.PI * radius + 2 * Math.hypot(to[0] - from[0], to[1] - from[1])) / spacing;
-  return 0.3 * spacing * spacing * depth * Math.sqrt(cells);
+  return 2 * 0.3 * spacing * spacing * depth * Math.sqrt(cells);
 }
 
 const failures = [];
