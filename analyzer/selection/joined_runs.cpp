@@ -32,6 +32,7 @@ void JoinedRuns::add(RunOutcome outcome) {
   const RunSet run = RunSet{1} << joined_.runs.size();
   joined_.has_scene = outcome.has_scene;
   joined_.has_stock = outcome.has_stock;
+  if (run == 1) joined_.removed = std::move(outcome.removed);
   joined_.runs.insert(joined_.runs.end(), outcome.runs.begin(), outcome.runs.end());
   std::map<std::int32_t, std::int32_t> mistakes;  // The numbers of this run's mistakes among those of all runs.
   for (RunFinding& each : outcome.findings) {

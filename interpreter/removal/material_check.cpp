@@ -248,14 +248,29 @@ static double length_across_axis(const SweepPath& path) {
   return length_of(path);
 }
 
+/// How a cut is, of what it has removed. The dexels measure the depth of a cut from above. Where the tool lies flatter,
+/// they measure across it, which is the width, and the depth follows from the volume.
+static Removed removed_by(const SweepOutcome& outcome, const SweepPath& path, double diameter) {
+  Removed removed{.volume = outcome.volume, .depth = outcome.depth};
+  const double length = length_across_axis(path);
+  const double steepness = std::abs(axis_of(path).z());
+  if (steepness >= std::sqrt(0.5)) {
+    removed.width = width_of_cut(outcome.volume, outcome.depth, length, diameter);
+    return removed;
+  }
+  removed.width = std::min(diameter, outcome.length * std::sqrt(1 - steepness * steepness));
+  const double area =
+      length < diameter / 20 ? removed.width * removed.width * 3.141592653589793 / 4 : removed.width * length;
+  removed.depth = area > 0 ? outcome.volume / area : 0;
+  return removed;
+}
+
 /// Notes what a cut has removed.
 void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
   if (!outcome.meets()) return;
   const SweepUse& use = uses_[sweep];
   const WaitingStretch& stretch = waiting_[use.stretch];
-  Removed removed{.volume = outcome.volume, .depth = outcome.depth};
-  removed.width = width_of_cut(outcome.volume, outcome.depth, length_across_axis(sweeps_[sweep].path),
-                               2 * sweeps_[sweep].body->maximum_radius());
+  const Removed removed = removed_by(outcome, sweeps_[sweep].path, 2 * sweeps_[sweep].body->maximum_radius());
   if (!tool_) {
     const auto known =
         std::find_if(by_tool_.begin(), by_tool_.end(), [&](const RemovedByTool& each) { return each.tool == code_; });
@@ -475,8 +490,10 @@ void MaterialCheck::find_worst(Episode& episode, const Stock& before) {
   const bool is_hit = incident.kind == IncidentKind::RapidInMaterial || incident.kind == IncidentKind::BodyInMaterial;
   if (!is_hit) return;
   incident.enough.reset();
-  if (const std::optional<double> rise = enough_rise(before, *body_of(use.role), path, up))
-    incident.enough = std::ceil((incident.level + *rise + skin_ - 0.01) * 10) / 10 + 0.0;  // No -0.
+  const std::optional<double> rise = enough_rise(before, *body_of(use.role), path, up);
+  // The dexels do not measure along a tool that lies.
+  if (rise && std::abs(up.z()) < std::sqrt(0.5)) incident.amount = *rise + skin_;
+  if (rise) incident.enough = std::ceil((incident.level + *rise + skin_ - 0.01) * 10) / 10 + 0.0;  // No -0.
 }
 
 void MaterialCheck::close(Episode& episode) {

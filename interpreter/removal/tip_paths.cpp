@@ -180,6 +180,12 @@ stock::SweepPath moved(stock::SweepPath path, const Vec3& shift) {
   return path;
 }
 
+Vec3 axis_of(const stock::SweepPath& path) {
+  if (const auto* const turning = std::get_if<stock::TurningPath>(&path)) return turning->from.axis;
+  const auto* const straight = std::get_if<stock::StraightPath>(&path);
+  return straight ? straight->from.axis : std::get<stock::HelixPath>(path).axis;
+}
+
 double length_of(const stock::SweepPath& path) {
   if (const auto* const turning = std::get_if<stock::TurningPath>(&path))
     return (turning->to.origin - turning->from.origin).norm();

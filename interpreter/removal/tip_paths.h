@@ -27,6 +27,9 @@ stock::SweepPath shifted_along_axis(const stock::SweepPath& path, double height)
 /// The same path, moved by `shift`.
 stock::SweepPath moved(stock::SweepPath path, const geometry::Vec3& shift);
 
+/// The direction of the tool's axis at the start of a path.
+geometry::Vec3 axis_of(const stock::SweepPath& path);
+
 /// Length of the path, mm.
 double length_of(const stock::SweepPath& path);
 

@@ -44,13 +44,24 @@ struct TakenPath {
   bool has_made(const RunDecision& decision) const;
 };
 
+/// What the motions of a line have removed from the blank.
+struct RemovedOnLine {
+  std::size_t line = 0;  ///< From 0.
+  double volume = 0;     ///< mm^3
+  double depth = 0;      ///< Greatest depth of cut, mm.
+  double width = 0;      ///< Greatest width of cut, mm.
+
+  friend bool operator==(const RemovedOnLine&, const RemovedOnLine&) = default;
+};
+
 /// What a run of a program has found, or several runs with other values of VGPL.
 struct RunOutcome {
   std::vector<RunFinding> findings;             ///< Sorted by line and column, each once on its line.
   std::vector<TakenPath> runs;                  ///< One for each run.
   std::vector<std::vector<RunDecision>> paths;  ///< What leads to findings that the first run does not have.
-  bool has_scene = false;  ///< Whether what surrounds the machine was known: contacts were looked for.
-  bool has_stock = false;  ///< Whether the material was cut as well.
+  bool has_scene = false;              ///< Whether what surrounds the machine was known: contacts were looked for.
+  bool has_stock = false;              ///< Whether the material was cut as well.
+  std::vector<RemovedOnLine> removed;  ///< By lines that removed something, in ascending order; of the first run.
 };
 
 /// What the machine shows of a program: joints outside their travel (E160), gouges of the cutter compensation (W138 to

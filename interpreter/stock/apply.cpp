@@ -93,6 +93,7 @@ double tilt_of(const Sweep& sweep) {
 void add(const DexelCount& count, const DexelGrid& part, double cell, double tilt, SweepOutcome& outcome) {
   outcome.volume += count.length * cell;
   const double depth = static_cast<double>(count.depth) * tilt;
+  outcome.length = std::max(outcome.length, static_cast<double>(count.depth));
   if (count.row < 0 || depth < outcome.depth || (depth == outcome.depth && outcome.depth > 0)) return;
   outcome.depth = depth;
   outcome.point = {part.x(count.column), part.y(count.row), count.bottom};

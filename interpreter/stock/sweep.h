@@ -52,6 +52,7 @@ struct SweepOutcome {
   /// Greatest length of material in one dexel, taken along the axis of the body, mm: for a vertical axis the depth of
   /// the cut, for another one its projection.
   double depth = 0;
+  double length = 0;                              ///< Greatest length of material in one dexel, vertical as it is, mm.
   geometry::Vec3 point = geometry::Vec3::Zero();  ///< Lower end of that material; of equal ones, the first in order.
 
   /// Whether any material has been met or removed. A body that only touches the material does not meet it.

@@ -131,6 +131,9 @@ VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier,
   if (result.ending == running::Ending::Error) verified.certificate->stopped_at = result.line;
   verified.outcome.has_scene = true;
   verified.outcome.has_stock = verifier.material() != nullptr;
+  if (verified.material)
+    for (const auto& [line, end_time, removed] : verified.material->by_line)
+      verified.outcome.removed.push_back({line, removed.volume, removed.depth, removed.width});
   add_findings(verified.outcome, verified.contacts, *verified.certificate, text);
   return verified;
 }

@@ -105,6 +105,14 @@ void AnalyzedDocument::take_run(simulation::RunOutcome outcome) {
   report_.reset();
 }
 
+std::optional<simulation::RemovedOnLine> AnalyzedDocument::removed_on(std::size_t line) const {
+  if (!run_ || !run_->is_current()) return std::nullopt;
+  const std::vector<simulation::RemovedOnLine>& removed = run_->outcome().removed;
+  const auto found = std::partition_point(removed.begin(), removed.end(),
+                                          [&](const simulation::RemovedOnLine& each) { return each.line < line; });
+  return found != removed.end() && found->line == line ? std::optional(*found) : std::nullopt;
+}
+
 void AnalyzedDocument::drop_run() {
   run_.reset();
   report_.reset();

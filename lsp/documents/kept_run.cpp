@@ -60,6 +60,9 @@ void KeptRun::replace_lines(std::size_t first, std::size_t removed, std::size_t 
     if (!each.last_line || *each.last_line < first) continue;
     each.last_line = *each.last_line < after ? std::nullopt : std::optional(*each.last_line - removed + inserted);
   }
+  std::erase_if(outcome_.removed, [&](const simulation::RemovedOnLine& each) { return is_replaced(each.line); });
+  for (simulation::RemovedOnLine& each : outcome_.removed)
+    if (each.line >= after) each.line = each.line - removed + inserted;
   for (TakenPath& run : outcome_.runs) {
     std::vector<std::pair<std::size_t, std::size_t>> executed;
     executed.reserve(run.executed.size() + 1);

@@ -45,6 +45,8 @@ class Snapshot {
   check::FirstFindings run_excerpt() const { return document_.run_excerpt(); }
   /// Whether the last verification was one of this text with these settings. Otherwise its findings may be outdated.
   bool is_verified() const { return document_.run() && document_.run()->is_current(); }
+  /// What the motions of a line have removed from the blank, if the verification of the present text has cut one.
+  std::optional<simulation::RemovedOnLine> removed_on(std::size_t line) const { return document_.removed_on(line); }
   /// The findings of the report on a line.
   std::vector<check::LocatedFinding> findings_on(std::size_t line) const { return document_.findings_on(line); }
   const check::Analysis& analysis() const { return document_.analysis(); }

@@ -193,7 +193,18 @@ class HoverWriter {
       add(text(kRapid, agreement.of([&](const LineRun& run) { return seconds_in_rapid(in_machine(run)); })));
     }
     if (agreement.is_partial) add(text(kPartial));
+    describe_removed();
     describe_nearest(runs);
+  }
+
+  /// What the motion cuts from the blank.
+  void describe_removed() {
+    static constexpr Text kRemoves = {"removes {} cm3, {} mm deep, width {} mm",
+                                      "asporta {} cm3, profondità {} mm, larghezza {} mm"};
+    const auto removed = snapshot_.removed_on(line_number_);
+    if (!removed) return;
+    add(text(kRemoves, shown(rounded_gap(removed->volume / 1000)), shown(rounded_gap(removed->depth)),
+             shown(rounded_gap(removed->width))));
   }
 
   /// What of the setup the motion hits or comes nearest to.

@@ -8,6 +8,7 @@
 
 #include "interpreter/kinematics/kinematics.h"
 #include "moves.h"
+#include "tests/support/random.h"
 
 namespace isocnc::kinematics {
 namespace {
@@ -74,7 +75,7 @@ TEST(Travel, RotaryAxesHaveRangesToo) {
 TEST(Travel, FindsTheFarthestPoint) {
   for (Machine machine : {three_axis_router(), head_router(), table_router()}) {
     for (AxisLimits& axis : machine.axes) axis.minimum = axis.maximum = 1e-4;  // All else is outside.
-    for (const Move& move : random_moves(11, 60)) {
+    for (const Move& move : random_moves(11, static_cast<int>(support::often(60)))) {
       const auto found = overtravels(machine, move);
       for (const Overtravel& each : found) {
         const double sign = each.position > each.limit ? 1 : -1;

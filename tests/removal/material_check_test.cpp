@@ -263,6 +263,20 @@ TEST(Material, TiltedToolsCutTheVolumeOfTheirClosedForm) {
   EXPECT_NEAR(removed(run), exact, 0.003 * exact);
 }
 
+TEST(Material, ToolsThatLie) {
+  // A slot of 15 mm into the front face, at half its height, and a rapid 10 mm into it.
+  Bench bench(MachineKind::Head);
+  bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::flat_body(8, 60));
+  const std::string side = "G00 X350 Y-100 Z20 B0 C0\nB90 C-90\nG29 X300 Y100 Z40 C-90 B90\nG00 X20 Y30 Z50\n";
+  const VerifiedRun slot = bench.cut(side + "Z5\nG01 Z-15 F1000\nY70\nG00 Z50\n");
+  EXPECT_EQ(told(slot), Lines());
+  ASSERT_EQ(slot.material->by_tool.size(), 1u);
+  EXPECT_NEAR(slot.material->by_tool[0].removed.depth, 15, 0.5);
+  EXPECT_NEAR(slot.material->by_tool[0].removed.width, 16, 0.5);
+  EXPECT_NEAR(removed(slot), (pi * 64 + 16 * 40) * 15, 100);
+  EXPECT_EQ(told(bench.cut(side + "Z-10\nZ50\n")), Lines{"E150 7 10.0 Z0.0"});
+}
+
 TEST(Material, WithoutAToolOrAStockNothingIsCut) {
   EXPECT_EQ(removed(Bench().run("G00 X250 Y150 Z5\nX500\nM02\n")), 0);
   Bench bench;
