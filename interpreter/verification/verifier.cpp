@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "interpreter/running/runner.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::verification {
 
@@ -171,11 +172,28 @@ void Verifier::finish_material() {
   certificate_.more_contacts += material_->left_out();
 }
 
-/// Whether a program may have a G92; a glance that saves a run of those that have none.
+/// Whether a program may have a G92; a glance that saves a run of those that have none. It misses none: blanks and
+/// comments mean nothing within a number, and a comment that is not closed takes the rest of its line.
 static bool may_set_origin(std::string_view text) {
-  for (std::size_t at = text.find("92"); at != std::string_view::npos; at = text.find("92", at + 1)) {
-    const std::size_t letter = text.find_last_not_of(" \t0+", at == 0 ? 0 : at - 1);
-    if (letter < at && (text[letter] == 'G' || text[letter] == 'g')) return true;
+  char last = 0;  // G, or the 9 after it: what of a G92 ends here.
+  bool is_in_comment = false;
+  for (const char c : text) {
+    if (text::is_line_end(c)) {
+      last = 0;
+      is_in_comment = false;
+    } else if (is_in_comment) {
+      is_in_comment = c != ')';
+    } else if (c == '(') {
+      is_in_comment = true;
+    } else if (text::upper(c) == 'G') {
+      last = 'G';
+    } else if (last == '9' && c == '2') {
+      return true;
+    } else if (last == 'G' && c == '9') {
+      last = '9';
+    } else if (!text::is_blank(c) && !(last == 'G' && (c == '0' || c == '+'))) {
+      last = 0;
+    }
   }
   return false;
 }

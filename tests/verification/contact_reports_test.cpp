@@ -188,6 +188,16 @@ TEST(ContactReports, AToolChangeShowsWhatTheToolTouchesWhereNothingMovesAfterIt)
   EXPECT_TRUE(summaries(shop.run("M06 T101001\nG00 X0 Y0 Z100\nM06 T101002\nM02\n")).empty());
 }
 
+/// Blanks and comments within a word mean nothing.
+TEST(ContactReports, TheFirstOriginIsFoundHoweverItIsWritten) {
+  for (const char* const written :
+       {"G92", "g092", "G9 2", "G 9\t2", "G(a)92", "G9(zero)2", "G (a) 0 9(b)(c) 2", "G9(G)2"})
+    EXPECT_EQ(first_workpiece_origin(fmt::format("{} X500 Y300 Z-10\nM02\n", written), {}), Vec3(500, 300, -10))
+        << written;
+  for (const char* const other : {"G04 P92", "G91\n2 X1", "(G92)", "; G92"})
+    EXPECT_EQ(first_workpiece_origin(fmt::format("{}\nM02\n", other), {}), Vec3::Zero()) << other;
+}
+
 TEST(ContactReports, TheCertificateSaysWhereNoSetupIsForTheProgram) {
   Shop shop;
   shop.scene.name = "isocnc.json";
