@@ -112,7 +112,7 @@ class BlockPass {
   /// The encounters of stretches that are contacts.
   std::vector<Encounter> contacts_on(std::span<const Stretch> stretches, const BodyPairs& bodies) const {
     std::vector<Encounter> found = verification::examine(stretches, bodies, machine_.motion.kinematics).encounters;
-    std::erase_if(found, [](const Encounter& encounter) { return !encounter.is_contact; });
+    std::erase_if(found, [](const Encounter& encounter) { return !encounter.is_contact(); });
     return found;
   }
 

@@ -1,7 +1,6 @@
 #include "interpreter/verification/contact_log.h"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 
 namespace isocnc::verification {
@@ -27,65 +26,114 @@ static dialect::DiagnosticId contact_with(BodyRole role) {
 
 void ContactLog::take_one(const Encounter& encounter, const StretchPlace& at, const BodyPairs& bodies,
                           const execution::ToolCode& tool) {
+  if (at.number != at_.number) settle();
+  at_ = at;
   const BodyPair& pair = bodies.pairs[encounter.pair];
   const Obstacle& obstacle = bodies.obstacles[pair.obstacle];
-  const auto [known, is_new] = open_.try_emplace({pair.obstacle, mover_of(bodies, pair.part)});
-  Episode& episode = known->second;
-  if (!is_new && at.number > episode.last_stretch + 1) close(episode);
-  Contact& contact = episode.contact;
-  if (is_new || at.number > episode.last_stretch + 1) {
-    episode = {};
-    contact.distance = std::numeric_limits<double>::infinity();
-    contact.tool = tool;
-    contact.mover = mover_of(bodies, pair.part);
-    contact.whom = obstacle.name;
-    contact.described = obstacle.body->described;
-  }
-  episode.last_stretch = at.number;
-  episode.reports_near |= pair.reports_near;
-  const dialect::GivenName who = bodies.parts[pair.part].name;
-  if (encounter.is_contact) {
-    if (!episode.has_touched || encounter.first_touch < contact.time) {
-      contact.line = at.line;
-      contact.time = encounter.first_touch;
-    }
-    if (!episode.has_touched || encounter.last_touch >= contact.end_time) {
-      contact.end_line = at.line;
-      contact.end_time = encounter.last_touch;
-    }
-    contact.id = contact_with(obstacle.body->role);
-  }
-  // How near it came before the touch does not matter.
-  const bool is_first_touch = encounter.is_contact && !episode.has_touched;
-  episode.has_touched |= encounter.is_contact;
-  if (!is_first_touch && !(encounter.distance < contact.distance)) return;
-  if (!episode.has_touched) {
-    contact.id = "near-miss"_diag;
-    contact.line = contact.end_line = at.line;
-    contact.time = contact.end_time = encounter.nearest_time;
-  }
-  // After a near miss the touch counts, even if it is no nearer.
-  if (is_first_touch || encounter.distance < contact.distance) {
-    contact.who = who;
-    contact.distance = encounter.distance;
-    contact.point = encounter.point;
-    contact.frame = at.frame;
-  }
+  const Mover mover = mover_of(bodies, pair.part);
+  Visit& visit = visits_.emplace_back(Visit{.place = {pair.obstacle, mover}, .reports_near = pair.reports_near});
+  visit.encounter = encounter;
+  visit.contact.id = encounter.is_contact() ? contact_with(obstacle.body->role) : "near-miss"_diag;
+  visit.contact.tool = tool;
+  visit.contact.who = bodies.parts[pair.part].name;
+  visit.contact.whom = obstacle.name;
+  visit.contact.mover = mover;
+  visit.contact.described = obstacle.body->described;
 }
 
-void ContactLog::close(const Episode& episode) {
-  if (!episode.has_touched && !episode.reports_near) return;
-  if (episode.has_touched) ++count_;
+/// Puts the encounters of the present stretch where they belong.
+void ContactLog::settle() {
+  std::stable_sort(visits_.begin(), visits_.end(), [](const Visit& a, const Visit& b) { return a.place < b.place; });
+  const std::span<const Visit> all(visits_);
+  for (std::size_t first = 0; first < all.size();) {
+    std::size_t end = first + 1;
+    while (end < all.size() && all[end].place == all[first].place) ++end;
+    settle(all.subspan(first, end - first));
+    first = end;
+  }
+  visits_.clear();
+}
+
+/// Takes what happens at one obstacle on the present stretch.
+void ContactLog::settle(std::span<const Visit> visits) {
+  Episode& episode = episodes_[visits.front().place];
+  const bool is_next_stretch = at_.number <= episode.last_stretch + 1;
+  std::vector<VisitTouch> touches;
+  for (const Visit& visit : visits)
+    for (const Touch& touch : visit.encounter.touches) touches.push_back({.visit = &visit, .touch = &touch});
+  std::stable_sort(touches.begin(), touches.end(), [](const VisitTouch& a, const VisitTouch& b) {
+    return a.touch->first != b.touch->first ? a.touch->first < b.touch->first : a.touch->last > b.touch->last;
+  });
+  if (episode.is_open && (!is_next_stretch || episode.is_apart)) close(episode);
+  for (const VisitTouch& touch : touches) {
+    // Two parts of a mover hand a contact over, and at rest between two stretches it lasts.
+    constexpr double kSameTime = 1e-6;  // s
+    const bool lasts = touch.touch->first <= episode.contact.end_time + kSameTime ||
+                       (is_next_stretch && episode.is_together && touch.touch->from_start);
+    if (episode.is_open && episode.has_touched && !lasts) close(episode);
+    take_touch(episode, touch);
+  }
+  for (const Visit& visit : visits) {
+    if (!episode.has_touched) take_near(episode, visit);
+    episode.reports_near |= visit.reports_near;
+  }
+  episode.is_together =
+      std::any_of(touches.begin(), touches.end(), [](const VisitTouch& each) { return each.touch->to_end; });
+  episode.is_apart = !episode.is_together && std::all_of(visits.begin(), visits.end(),
+                                                         [](const Visit& each) { return each.encounter.ends_apart; });
+  episode.last_stretch = at_.number;
+}
+
+void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
+  // How near it came before the touch does not matter.
+  const bool is_first = !episode.is_open || !episode.has_touched;
+  const bool is_deeper = is_first || touch.touch->distance < episode.contact.distance;
+  Contact& contact = episode.contact;
+  if (is_first) {
+    contact = touch.visit->contact;
+    contact.line = at_.line;
+    contact.time = touch.touch->first;
+  }
+  if (is_first || touch.touch->last >= contact.end_time) {
+    contact.end_line = at_.line;
+    contact.end_time = touch.touch->last;
+  }
+  episode.is_open = episode.has_touched = true;
+  if (!is_deeper) return;
+  contact.who = touch.visit->contact.who;
+  contact.distance = touch.touch->distance;
+  contact.point = touch.touch->point;
+  contact.frame = at_.frame;
+}
+
+void ContactLog::take_near(Episode& episode, const Visit& visit) const {
+  const Encounter& encounter = visit.encounter;
+  if (episode.is_open && !(encounter.distance < episode.contact.distance)) return;
+  episode.is_open = true;
+  Contact& contact = episode.contact;
+  contact = visit.contact;
+  contact.line = contact.end_line = at_.line;
+  contact.time = contact.end_time = encounter.nearest_time;
+  contact.distance = encounter.distance;
+  contact.point = encounter.point;
+  contact.frame = at_.frame;
+}
+
+void ContactLog::close(Episode& episode) {
+  const Episode closed = std::exchange(episode, Episode());
+  if (!closed.is_open || (!closed.has_touched && !closed.reports_near)) return;
+  if (closed.has_touched) ++count_;
   if (contacts_.size() >= kMaxContacts) {
     ++left_out_;
     return;
   }
-  contacts_.push_back(episode.contact);
+  contacts_.push_back(closed.contact);
 }
 
 void ContactLog::close_all() {
-  for (const auto& [obstacle, episode] : open_) close(episode);
-  open_.clear();
+  settle();
+  for (auto& [place, episode] : episodes_) close(episode);
+  episodes_.clear();
 }
 
 std::vector<Contact> ContactLog::contacts() const {

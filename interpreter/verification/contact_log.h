@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,9 @@ struct StretchPlace {
   geometry::Frame frame;   ///< In force; in the machine frame.
 };
 
-/// Puts encounters together: a mover that comes near an obstacle and leaves it again is one contact or one near miss,
-/// however many motions it takes and whichever part of the tool is nearest.
+/// Puts encounters together: a mover that touches an obstacle is one contact until all of it has left the obstacle,
+/// however many motions it takes and whichever part of the tool is nearest; a mover that comes near an obstacle and
+/// leaves it again without a touch is one near miss.
 class ContactLog {
  public:
   /// Takes what stretches that were examined together have shown; in the order of the run. `place_of` tells where each
@@ -37,21 +39,46 @@ class ContactLog {
   std::size_t left_out() const { return left_out_; }    ///< Contacts and near misses beyond kMaxContacts.
 
  private:
+  using Place = std::pair<std::size_t, Mover>;  ///< An obstacle and what comes near it.
+
   /// What is going on at an obstacle.
   struct Episode {
-    std::size_t last_stretch = 0;
+    bool is_open = false;
     bool has_touched = false;
     bool reports_near = false;
+    bool is_together = false;      ///< Whether a part touches at the end of the last stretch.
+    bool is_apart = false;         ///< Whether all parts are beyond their limits at the end of the last stretch.
+    std::size_t last_stretch = 0;  ///< On which the mover came near.
     Contact contact;
+  };
+
+  /// An encounter on the present stretch.
+  struct Visit {
+    Place place;
+    bool reports_near = false;
+    Contact contact;  ///< Without times and lines.
+    Encounter encounter;
+  };
+
+  /// A touch on the present stretch, with the visit that it belongs to.
+  struct VisitTouch {
+    const Visit* visit = nullptr;
+    const Touch* touch = nullptr;
   };
 
   void take_one(const Encounter& encounter, const StretchPlace& at, const BodyPairs& bodies,
                 const execution::ToolCode& tool);
-  void close(const Episode& episode);
+  void settle();
+  void settle(std::span<const Visit> visits);
+  void take_touch(Episode& episode, const VisitTouch& touch) const;
+  void take_near(Episode& episode, const Visit& visit) const;
+  void close(Episode& episode);
 
   static constexpr std::size_t kMaxContacts = 10'000;
 
-  std::map<std::pair<std::size_t, Mover>, Episode> open_;  ///< By obstacle and what comes near it.
+  std::map<Place, Episode> episodes_;
+  StretchPlace at_;            ///< The present stretch.
+  std::vector<Visit> visits_;  ///< Encounters on it.
   std::vector<Contact> contacts_;
   std::size_t count_ = 0;
   std::size_t left_out_ = 0;

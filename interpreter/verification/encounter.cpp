@@ -25,6 +25,10 @@ namespace {
 
 constexpr double kNearTolerance = 0.1;  ///< Of the smallest distance of a near miss, mm.
 
+/// Bodies that touch are together until they are farther from one another than this, mm: a motion along an obstacle at
+/// the contact distance is one contact.
+constexpr double kApart = 1.5 * kContactDistance;
+
 /// A stretch, and where the machine is on it.
 class StretchPlaces {
  public:
@@ -244,10 +248,17 @@ class Examination {
       course.plane = plane_between(pair, begin);
       if (is_beyond_plane()) return;
     }
-    search(places, course, rate);
+    std::optional<Encounter> encounter = search(places, course, rate, begin);
     const Clearance end = distance(places.end(), pair.limit + kAhead * travel);
     // Where both rest in contact, each stretch belongs to it.
     const double margin = end.lower - pair.limit;
+    if (encounter) {
+      encounter->ends_apart = margin > 0;
+      // To less than kApart so soon after a touch, both have not been apart.
+      if (encounter->is_contact() && end.upper <= kApart && rate * (places.end() - last_) <= kNearTolerance)
+        encounter->touches.back().to_end = true;
+      result_.encounters.push_back(*std::move(encounter));
+    }
     course.free_until = margin > 0 ? after + margin : -std::numeric_limits<double>::infinity();
   }
 
@@ -298,7 +309,8 @@ class Examination {
   }
 
   /// Looks for contacts and for the smallest distance.
-  void search(StretchPlaces& places, const PairCourse& course, double rate) {
+  std::optional<Encounter> search(StretchPlaces& places, const PairCourse& course, double rate,
+                                  const Clearance& begin) {
     const BodyPair& pair = *course.pair;
     const auto distance = [&](double s, double sufficient) { return distance_of(places, pair, s, sufficient); };
     const auto speed = [rate](double) { return rate; };
@@ -310,7 +322,13 @@ class Examination {
       const solids::AdvanceResult found = solids::first_contact(from, places.end(), distance, speed, options);
       if (found.verdict == solids::AdvanceResult::Verdict::Contact) {
         const solids::ContactSpan span = follow(places, found.s, distance, speed, rate);
-        touch(places, pair, span, encounter);
+        // From less than kApart to a touch so soon, both have not been apart.
+        const bool from_start =
+            !encounter.is_contact() && begin.upper <= kApart && rate * (span.first - places.begin()) <= kNearTolerance;
+        const bool lasts = encounter.is_contact() && !were_apart(last_, span.first, distance, rate);
+        touch(places, pair, span, lasts, encounter);
+        if (from_start) encounter.touches.back().from_start = true;
+        last_ = span.last;
         if (!span.is_over || !(span.free > from)) break;
         from = span.free;
         continue;
@@ -320,7 +338,18 @@ class Examination {
         come_near(places, pair, found, encounter);
       break;
     }
-    if (encounter.distance < std::numeric_limits<double>::infinity()) result_.encounters.push_back(encounter);
+    return encounter.distance < std::numeric_limits<double>::infinity() ? std::optional(std::move(encounter))
+                                                                        : std::nullopt;
+  }
+
+  /// Whether both bodies are apart somewhere between two touches.
+  template <class Distance>
+  static bool were_apart(double last, double first, Distance& distance, double rate) {
+    constexpr int kLooks = 8;
+    if (rate * (first - last) < 2 * (kApart - kContactDistance)) return false;
+    for (int i = 1; i < kLooks; ++i)
+      if (distance(last + (first - last) * i / kLooks, kApart).upper > kApart) return true;
+    return false;
   }
 
   /// A contact that is deeper than the rest of the stretch is long does not end on it.
@@ -363,11 +392,20 @@ class Examination {
     }
   }
 
-  void touch(const StretchPlaces& places, const BodyPair& pair, const solids::ContactSpan& span,
+  /// `lasts`: the touch before goes on.
+  void touch(const StretchPlaces& places, const BodyPair& pair, const solids::ContactSpan& span, bool lasts,
              Encounter& encounter) const {
-    if (!encounter.is_contact) encounter.first_touch = places.time_at(span.first);
-    encounter.is_contact = true;
-    encounter.last_touch = places.time_at(span.last);
+    const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
+    if (!lasts)
+      encounter.touches.push_back(
+          {.first = places.time_at(span.first), .distance = std::numeric_limits<double>::infinity()});
+    Touch& touch = encounter.touches.back();
+    touch.last = places.time_at(span.last);
+    touch.to_end = !span.is_over;
+    if (const double nearest = span.deepest.upper - pair.slack; nearest < touch.distance) {
+      touch.distance = nearest;
+      touch.point = places.on_workpiece(span.deepest_s, span.deepest.on_obstacle + obstacle.shift, obstacle.on);
+    }
     take_nearest(places, pair, span.deepest_s, span.deepest, encounter);
   }
 
@@ -396,6 +434,7 @@ class Examination {
   Examined result_;
   std::size_t index_ = 0;
   std::size_t sorted_ = 0;
+  double last_ = 0;  ///< Parameter up to which the last touch has lasted.
 };
 
 }  // namespace

@@ -9,6 +9,16 @@
 
 namespace isocnc::verification {
 
+/// A time within a stretch during which a pair touches, from the first touch to the last.
+struct Touch {
+  double first = 0;         ///< Seconds since the start of the run.
+  double last = 0;          ///< Seconds.
+  bool from_start = false;  ///< Whether both are together from the start of the stretch on.
+  bool to_end = false;      ///< Whether both are still together at the end of the stretch.
+  double distance = 0;      ///< Smallest distance that was found, mm; negative: how deep they overlap.
+  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Of the obstacle, there; mm, as in Contact.
+};
+
 /// A pair that a stretch of motion brings nearer together than the pair's limit.
 struct Encounter {
   std::size_t stretch = 0;  ///< Index of the stretch among those that were examined together.
@@ -16,9 +26,10 @@ struct Encounter {
   double distance = 0;      ///< Smallest distance that was found, mm; negative: how deep they overlap.
   double nearest_time = 0;  ///< When it was found; seconds since the start of the run.
   geometry::Vec3 point = geometry::Vec3::Zero();  ///< Of the obstacle, there; mm, as in Contact.
-  bool is_contact = false;
-  double first_touch = 0;  ///< Time of the first touch, if there is a contact.
-  double last_touch = 0;   ///< Time of the last touch.
+  bool ends_apart = false;                        ///< Whether both are beyond the limit at the end of the stretch.
+  std::vector<Touch> touches;                     ///< By time; between two of them both are apart.
+
+  bool is_contact() const { return !touches.empty(); }
 };
 
 /// What examining stretches has shown.

@@ -106,7 +106,7 @@ std::vector<Neighbor> neighbors_along(const BodyPairs& bodies, const kinematics:
   }
   NeighborList nearest(wide);
   for (const Encounter& encounter : examine(stretches, wide, machine.kinematics).encounters)
-    nearest.take(wide.pairs[encounter.pair], encounter.distance, encounter.point, encounter.is_contact);
+    nearest.take(wide.pairs[encounter.pair], encounter.distance, encounter.point, encounter.is_contact());
   return nearest.sorted();
 }
 

@@ -124,6 +124,59 @@ TEST(ContactReports, RepeatedContactsShowTheDeepest) {
   EXPECT_NEAR(run.outcome.findings[1].finding.values[0], 20, 0.011);
 }
 
+/// Line from 1, and the line where the contact ends.
+std::vector<std::pair<std::size_t, std::size_t>> lines_of(const VerifiedRun& run) {
+  std::vector<std::pair<std::size_t, std::size_t>> lines;
+  for (const Contact& contact : run.contacts) lines.emplace_back(contact.line + 1, contact.end_line + 1);
+  return lines;
+}
+using Lines = std::vector<std::pair<std::size_t, std::size_t>>;
+
+TEST(ContactReports, WhatTheToolLeavesAndComesBackToIsHitAgain) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("clamp", {90, -70, 0}, {110, 70, 50});
+  // Half circles one after another, a whole one, and there and back in rapid.
+  const std::string start = "M06 T101001\nG00 X160 Y0 Z45\n";
+  EXPECT_EQ(lines_of(shop.run(start + "G03 X40 Y0 I100 J0 F3000\nX160 Y0 I100 J0\nM02\n")), (Lines{{3, 3}, {4, 4}}));
+  EXPECT_EQ(lines_of(shop.run(start + "G03 X160 Y0 I100 J0 F3000\nM02\n")), (Lines{{3, 3}, {3, 3}}));
+  EXPECT_EQ(lines_of(shop.run(start + "X40\nX160\nM02\n")), (Lines{{3, 3}, {4, 4}}));
+  // One from below the head of the clamp to its other end is one contact, with the time at rest.
+  EXPECT_EQ(lines_of(shop.run(start + "X100\nG04 P2\nX100.5\nX40\nM02\n")), (Lines{{3, 6}}));
+}
+
+TEST(ContactReports, GrazingIsOneContact) {
+  for (const double gap : {0.0, 0.0199, 0.02, 0.0201}) {
+    Shop shop;
+    shop.scene.clearance = 0;
+    shop.box("rail", {-50, 10, -50}, {50, 20, 20});
+    std::string program = fmt::format("M06 T101001\nG00 X-100 Y{:.4f} Z10\nG49\nG01 F3000\n", -gap);
+    for (int i = 0; i < 400; ++i)
+      program += fmt::format("G01 X{:.2f} Y{:.5f}\n", -100 + 0.5 * i, -gap - (i % 2) * 1e-4);
+    EXPECT_LE(shop.run(program + "M02\n").contacts.size(), 1u) << gap;
+  }
+}
+
+/// The cutter is in the ring below while the holder is above it.
+TEST(ContactReports, PartsOfAToolHandAContactOver) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.scene.nose.reset();
+  shop.box("plate", {20, -50, 10}, {60, 50, 20});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X-100 Y0 Z5\nX9\nX12\nZ-41\nX-100\nM02\n");
+  EXPECT_EQ(lines_of(run), (Lines{{4, 6}}));
+}
+
+TEST(ContactReports, WhatIsPassedTwiceIsPassedNearTwice) {
+  Shop shop;
+  shop.scene.clearance = 2;
+  shop.box("clamp", {90, -70, 0}, {110, 70, 50});
+  const VerifiedRun run =
+      shop.run("M06 T101001\nG00 X160 Y0 Z51\nG03 X40 Y0 I100 J0 F3000\nX160 Y0 Z45 I100 J0\nM02\n");
+  EXPECT_EQ(summaries(run),
+            (std::vector<std::string>{"W154 3 the cutter of T101001 | clamp", "E152 4 the cutter of T101001 | clamp"}));
+}
+
 TEST(ContactReports, FixturesOfOneNameAreTwo) {
   Shop shop;
   shop.scene.clearance = 0;
