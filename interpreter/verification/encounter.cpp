@@ -25,6 +25,10 @@ namespace {
 
 constexpr double kNearTolerance = 0.1;  ///< Of the smallest distance of a near miss, mm.
 
+/// Distances that are asked for along a stretch before the rest of it is taken in kPieces pieces.
+constexpr int kMaxEvaluations = 50'000;
+constexpr int kPieces = 64;
+
 /// Bodies that touch are together until they are farther from one another than this, mm: a motion along an obstacle at
 /// the contact distance is one contact.
 constexpr double kApart = 1.5 * kContactDistance;
@@ -314,8 +318,10 @@ class Examination {
     const BodyPair& pair = *course.pair;
     const auto distance = [&](double s, double sufficient) { return distance_of(places, pair, s, sufficient); };
     const auto speed = [rate](double) { return rate; };
-    const solids::AdvanceOptions options{
-        .contact = kContactDistance, .clearance = pair.reports_near ? pair.limit : 0, .tolerance = kNearTolerance};
+    solids::AdvanceOptions options{.contact = kContactDistance,
+                                   .clearance = pair.reports_near ? pair.limit : 0,
+                                   .tolerance = kNearTolerance,
+                                   .max_evaluations = kMaxEvaluations};
     Encounter encounter{.stretch = index_, .pair = course.index, .distance = std::numeric_limits<double>::infinity()};
     double from = places.begin();
     for (;;) {
@@ -333,10 +339,15 @@ class Examination {
         from = span.free;
         continue;
       }
-      if (found.verdict == solids::AdvanceResult::Verdict::Undecided) undecided();
       if (pair.reports_near && found.nearest < pair.limit && found.nearest < encounter.distance)
         come_near(places, pair, found, encounter);
-      break;
+      if (found.verdict != solids::AdvanceResult::Verdict::Undecided) break;
+      undecided();
+      if (!(found.s < places.end())) break;
+      // What comes after a piece that cannot be decided is examined all the same.
+      from =
+          std::min(places.end(), std::max(found.s + places.length() / kPieces, std::nextafter(found.s, places.end())));
+      options.max_evaluations = std::max(options.max_evaluations - found.evaluations, kMaxEvaluations / kPieces);
     }
     return encounter.distance < std::numeric_limits<double>::infinity() ? std::optional(std::move(encounter))
                                                                         : std::nullopt;

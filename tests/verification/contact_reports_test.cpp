@@ -177,6 +177,19 @@ TEST(ContactReports, WhatIsPassedTwiceIsPassedNearTwice) {
             (std::vector<std::string>{"W154 3 the cutter of T101001 | clamp", "E152 4 the cutter of T101001 | clamp"}));
 }
 
+/// Down by 0.1 mm in 500 turns of the table, the tool stays near the plate for too long for a proof.
+TEST(ContactReports, WhatFollowsAnUndecidedPieceIsFound) {
+  Shop shop(MachineKind::Table);
+  shop.scene.clearance = 0;
+  shop.scene.nose.reset();
+  shop.box("plate", {-300, -300, -10}, {300, 300, 0});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X100 Y0 Z0.05 B0 C0\nG49\nG01 Z-0.05 C180000 F5000\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  EXPECT_EQ(run.contacts[0].line, 3u);
+  ASSERT_EQ(run.certificate->gaps.size(), 1u);
+  EXPECT_EQ(run.certificate->gaps[0].gap, Gap::Undecided);
+}
+
 TEST(ContactReports, FixturesOfOneNameAreTwo) {
   Shop shop;
   shop.scene.clearance = 0;
