@@ -1,17 +1,56 @@
 #include "interpreter/verification/body_distance.h"
 
+#include <algorithm>
+
 namespace isocnc::verification {
+
+using geometry::Vec3;
+
+/// A point of a face that is near a point inside.
+static Vec3 on_surface(const solids::Cuboid& box, const Vec3& inside) {
+  const Vec3 above = inside - box.minimum;
+  const Vec3 below = box.maximum - inside;
+  Eigen::Index lowest = 0;
+  Eigen::Index highest = 0;
+  const bool is_low = above.minCoeff(&lowest) < below.minCoeff(&highest);
+  const Eigen::Index axis = is_low ? lowest : highest;
+  Vec3 point = inside;
+  point[axis] = is_low ? box.minimum[axis] : box.maximum[axis];
+  return point;
+}
+
+static Vec3 on_surface(const solids::Cylinder& cylinder, const Vec3& inside) {
+  const double height = cylinder.at.axis.dot(inside - cylinder.at.origin);
+  const Vec3 center = cylinder.at.at(height);
+  const Vec3 outwards = inside - center;
+  const double radius = outwards.norm();
+  const double to_face = std::min(height, cylinder.height - height);
+  if (radius > 0 && cylinder.radius - radius <= to_face) return center + outwards * (cylinder.radius / radius);
+  return cylinder.at.at(height <= cylinder.height - height ? 0 : cylinder.height) + outwards;
+}
+
+static Vec3 on_surface(const std::shared_ptr<const solids::Mesh>&, const Vec3& on_triangle) { return on_triangle; }
+
+/// Where two bodies overlap, the point of the obstacle may be any point of both.
+static solids::Clearance with_surface_point(const BodyShape& shape, solids::Clearance found) {
+  if (found.upper < 0)
+    found.on_obstacle =
+        std::visit([&](const auto& obstacle) { return on_surface(obstacle, found.on_obstacle); }, shape);
+  return found;
+}
 
 solids::Clearance distance_to(const BodyShape& shape, const solids::RevolvedBody& body, const solids::AxisPlacement& at,
                               double sufficient) {
-  return with_solid(shape, [&](const auto& obstacle) { return clearance(body, at, obstacle, sufficient); });
+  return with_surface_point(
+      shape, with_solid(shape, [&](const auto& obstacle) { return clearance(body, at, obstacle, sufficient); }));
 }
 
 solids::Clearance distance_to(const BodyShape& shape, const BodyShape& body, const solids::Placement& at,
                               double sufficient) {
-  return with_solid(shape, [&](const auto& obstacle) {
-    return with_solid(body, [&](const auto& moving) { return clearance(moving, at, obstacle, sufficient); });
-  });
+  return with_surface_point(
+      shape, with_solid(shape, [&](const auto& obstacle) {
+        return with_solid(body, [&](const auto& moving) { return clearance(moving, at, obstacle, sufficient); });
+      }));
 }
 
 }  // namespace isocnc::verification

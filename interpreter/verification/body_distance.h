@@ -17,7 +17,8 @@ auto with_solid(const BodyShape& shape, Use&& use) {
   return use(*std::get<std::shared_ptr<const solids::Mesh>>(shape));
 }
 
-// Distances to a shape, of a body that is at `at` in the shape's frame; `sufficient` as in solids::clearance().
+// Distances to a shape, of a body that is at `at` in the shape's frame; `sufficient` as in solids::clearance(). The
+// point of the obstacle is one of its surface.
 
 solids::Clearance distance_to(const BodyShape& shape, const solids::RevolvedBody& body, const solids::AxisPlacement& at,
                               double sufficient);

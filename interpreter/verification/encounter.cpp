@@ -29,6 +29,8 @@ constexpr double kNearTolerance = 0.1;  ///< Of the smallest distance of a near 
 constexpr int kMaxEvaluations = 50'000;
 constexpr int kPieces = 64;
 
+constexpr double kResolution = 0.1;  ///< Of the steps along a contact, mm.
+
 /// Bodies that touch are together until they are farther from one another than this, mm: a motion along an obstacle at
 /// the contact distance is one contact.
 constexpr double kApart = 1.5 * kContactDistance;
@@ -367,21 +369,54 @@ class Examination {
   template <class Distance, class Speed>
   solids::ContactSpan follow(const StretchPlaces& places, double first, Distance& distance, Speed& speed,
                              double rate) const {
-    constexpr double kResolution = 0.1;  // mm
     const Clearance begin = distance(first, solids::kExact);
     const double rest = rate * (places.end() - first);
     if (begin.depth() > rest) {
       const Clearance end = distance(places.end(), solids::kExact);
-      const bool is_deeper = end.upper < begin.upper;
-      return {.first = first,
-              .last = places.end(),
-              .deepest_s = is_deeper ? places.end() : first,
-              .deepest = is_deeper ? end : begin};
+      solids::ContactSpan span{.first = first, .last = places.end(), .deepest_s = first, .deepest = begin};
+      look_inside(span, end, rate, distance);
+      if (span.deepest_s > first && span.deepest_s < span.last) refine_depth(span, 2 * kResolution / rate, distance);
+      return span;
     }
     solids::ContactSpan span =
         solids::follow_contact(first, places.end(), distance, speed, kContactDistance, kResolution);
     refine_depth(span, (places.end() - first) / solids::kMaxContactSteps + kResolution / rate, distance);
     return span;
+  }
+
+  /// Finds the deepest place of a contact that lasts to the end, to within the resolution. Between two places the depth
+  /// is at most what both have, and the way between them adds, on average.
+  template <class Distance>
+  static void look_inside(solids::ContactSpan& span, const Clearance& end, double rate, Distance& distance) {
+    struct Interval {
+      double from;
+      double to;
+      double depth_from;
+      double depth_to;
+      double bound;
+    };
+    constexpr int kLooks = 64;
+    const auto between = [rate](double from, double depth_from, double to, double depth_to) {
+      return Interval{from, to, depth_from, depth_to, (depth_from + depth_to + rate * (to - from)) / 2};
+    };
+    const auto take = [&span](double s, const Clearance& found) {
+      if (!(found.upper < span.deepest.upper)) return;
+      span.deepest = found;
+      span.deepest_s = s;
+    };
+    std::vector<Interval> open = {between(span.first, span.deepest.depth(), span.last, end.depth())};
+    take(span.last, end);
+    for (int i = 0; i < kLooks; ++i) {
+      const auto widest = std::max_element(open.begin(), open.end(),
+                                           [](const Interval& a, const Interval& b) { return a.bound < b.bound; });
+      if (!(widest->bound > span.deepest.depth() + kResolution)) return;
+      const Interval each = *widest;
+      const double middle = each.from + (each.to - each.from) / 2;
+      const Clearance found = distance(middle, solids::kExact);
+      take(middle, found);
+      *widest = between(each.from, each.depth_from, middle, found.depth());
+      open.push_back(between(middle, found.depth(), each.to, each.depth_to));
+    }
   }
 
   /// Between two steps the depth may be larger: looks around the deepest one, where it nearly always has one maximum.

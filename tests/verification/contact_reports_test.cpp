@@ -190,6 +190,32 @@ TEST(ContactReports, WhatFollowsAnUndecidedPieceIsFound) {
   EXPECT_EQ(run.certificate->gaps[0].gap, Gap::Undecided);
 }
 
+/// A half circle that is in the block throughout, below and above its ends.
+TEST(ContactReports, TheDeepestPlaceIsFoundWithinAMotion) {
+  for (const auto& [arc, depth] : {std::pair("G02", 50), std::pair("G03", 40)}) {
+    Shop shop;
+    shop.scene.clearance = 0;
+    shop.scene.nose.reset();
+    shop.scene.tools[Shop::kTool].holder.reset();
+    shop.box("block", {-200, -200, -200}, {200, 200, 0});
+    const VerifiedRun run = shop.run(
+        fmt::format("G18\nM06 T101001\nG00 X-10 Y0 Z10\nG01 Z-40 F2000\n{} X10 Z-40 I0 K-40\nG01 Z10\nM02\n", arc));
+    ASSERT_EQ(run.contacts.size(), 1u);
+    EXPECT_NEAR(run.contacts[0].distance, -depth, 0.05) << arc;
+  }
+}
+
+TEST(ContactReports, ThePlaceIsOnTheSurfaceOfTheObstacle) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.scene.tools[Shop::kTool].cutter = Shop::body(solids::ball_body(10, 60));
+  shop.box("block", {-200, -200, -200}, {200, 200, 0});
+  shop.pin("post", {300, 0, -100}, {0, 0, 1}, 100, 30);
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X-10 Y0 Z10\nG01 Z-40 F2000\nZ10\nX299\nZ-20\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 2u);
+  for (const Contact& contact : run.contacts) EXPECT_NEAR(contact.point.z(), 0, 1e-9);
+}
+
 TEST(ContactReports, FixturesOfOneNameAreTwo) {
   Shop shop;
   shop.scene.clearance = 0;
