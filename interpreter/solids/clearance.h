@@ -21,10 +21,11 @@ inline constexpr double kMaxCoordinate = 1e6;  ///< mm
 /// The distance is that of the nearest two points where body and obstacle are apart. Where they overlap, it is
 /// negative, and both bounds are -depth(). The depth of a convex piece of the body and a convex obstacle (box,
 /// cylinder, one triangle of a mesh) is the length of a translation that surely separates them, nearly always the
-/// shortest one; the depth of a body is that of its deepest piece, and of a mesh that of its deepest triangle. So a
-/// body must move by about the depth or more to be free. The depth of two meshes is that of their deepest pair of
-/// triangles, which says little more than that they overlap. Where a closed mesh encloses the whole body, or one of the
-/// surfaces of another mesh, and the surfaces are apart, the depth is the distance of the surfaces.
+/// shortest one; the depth of a body is that of its deepest piece, and of a mesh that of its deepest triangle or, if it
+/// is closed and the body one of revolution, of the deepest of some points of the body. So a body must move by about
+/// the depth or more to be free. The depth of two meshes is that of their deepest pair of triangles, which says little
+/// more than that they overlap. Where a closed mesh encloses the whole body, or one of the surfaces of another mesh,
+/// and the surfaces are apart, the depth is the distance of the surfaces.
 struct Clearance {
   double lower = std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();

@@ -141,6 +141,18 @@ TEST(Clearance, DoesNotGrowWithTheBody) {
   }
 }
 
+/// A body that is deep in a mesh is no nearer to free for being thin, and its depth grows on where all of it is inside.
+TEST(Clearance, OfAMeshGrowsWithTheDepth) {
+  const Cuboid block{{-100, -100, -80}, {100, 100, 0}};
+  const Mesh mesh(scenes::box_triangles(block));
+  for (const double depth : {0.5, 4.0, 10.0, 30.0, 39.0})
+    for (const double length : {20.0, 100.0})
+      for (const RevolvedBody& tool : {body(flat_body(5, length)), body(ball_body(5, length))})
+        EXPECT_NEAR(clearance(tool, upright(0, 0, -depth), mesh).upper, -depth, kExactly) << depth << " " << length;
+  // Through all of it: the middle is deepest.
+  EXPECT_NEAR(clearance(body(flat_body(5, 200)), upright(0, 0, -120), mesh).upper, -40, kExactly);
+}
+
 /// A mesh of a box is as far away as the box.
 TEST(Clearance, OfAMeshIsThatOfTheSolid) {
   for (const std::uint64_t seed : support::seeds(500)) {
