@@ -130,10 +130,19 @@ class PairsMaker {
     if (!may_meet(part, obstacle)) return;
     BodyPair pair{.part = part_index, .obstacle = obstacle_index, .revolved = part.revolved, .limit = kContactDistance};
     if (obstacle.body->role == BodyRole::Target && part.kind == PartKind::Cutter) {
-      std::optional<solids::RevolvedBody> reduced = part.revolved->reduced(scene_.target_tolerance + kSlack);
-      if (!reduced) return;
-      pair.revolved = &result_.reduced.emplace_back(*std::move(reduced));
+      const double depth = scene_.target_tolerance + kSlack;
+      std::optional<solids::RevolvedBody> reduced = part.revolved->reduced(depth);
       pair.slack = kSlack;
+      // Of a thin cutter nothing remains, and of a pointed one not its point: it counts how deep they are.
+      constexpr double kRounding = 1e-6;
+      if (!reduced || reduced->bottom() > part.revolved->bottom() + depth + kRounding) {
+        pair.allowed = depth;
+        bound(part, obstacle, pair);
+        result_.pairs.push_back(pair);
+        if (!reduced) return;
+        pair.allowed = 0;
+      }
+      pair.revolved = &result_.reduced.emplace_back(*std::move(reduced));
     }
     if (obstacle.body->role == BodyRole::Spoilboard && std::holds_alternative<solids::Cuboid>(obstacle.shape))
       pair.slack = kSlack;

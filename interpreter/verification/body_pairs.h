@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "interpreter/dialect/given_name.h"
+#include "interpreter/solids/clearance.h"
 #include "interpreter/verification/motion_bounds.h"
 #include "interpreter/verification/scene.h"
 
@@ -52,11 +53,18 @@ struct BodyPair {
   bool reports_near = false;   ///< Whether coming nearer than `limit` without a contact is reported (W154).
   bool is_watched = false;     ///< Whether the part should keep away from the obstacle at all.
   double slack = 0;            ///< By how much the compared shapes are smaller than what counts, mm.
+  double allowed = 0;          ///< How deep the compared shapes may overlap, mm.
   double reach_tip = kNever;   ///< Largest distance of the part's points from the tip, mm.
   double reach_axes = kNever;  ///< ... from the rotary axes that are between both, mm.
   bool shifts = true;          ///< Whether the linear joints are between both.
   bool swings = false;         ///< Whether the distance from the nose to the table's axes counts as well.
 
+  /// The distance that counts for a distance of the compared shapes.
+  solids::Clearance counted(solids::Clearance of_shapes) const {
+    of_shapes.lower += allowed;
+    of_shapes.upper += allowed;
+    return of_shapes;
+  }
   /// An upper bound of the speed of any point of the part relative to the obstacle, mm per unit of the path parameter.
   double speed(const MotionBounds& bounds) const {
     const double by_tip = bounds.tip + bounds.turn * reach_tip;

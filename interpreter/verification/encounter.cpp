@@ -272,7 +272,8 @@ class Examination {
     const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
     const MovingPart& part = bodies_.parts[pair.part];
     if (pair.revolved)
-      return distance_to(obstacle.shape, *pair.revolved, places.tool_at(s, part.offset, obstacle), sufficient);
+      return pair.counted(distance_to(obstacle.shape, *pair.revolved, places.tool_at(s, part.offset, obstacle),
+                                      sufficient - pair.allowed));
     return distance_to(obstacle.shape, part.body->shape, places.body_at(s, part, obstacle), sufficient);
   }
 

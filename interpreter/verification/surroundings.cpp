@@ -83,7 +83,7 @@ std::vector<Neighbor> neighbors_at(const BodyPairs& bodies, const kinematics::Ki
   NeighborList nearest(bodies);
   for (const BodyPair& pair : bodies.pairs) {
     const Obstacle& obstacle = bodies.obstacles[pair.obstacle];
-    const solids::Clearance found = distance_of(pair, bodies, kinematics, joints, solids::kExact);
+    const solids::Clearance found = pair.counted(distance_of(pair, bodies, kinematics, joints, solids::kExact));
     nearest.take(
         pair, found.upper - pair.slack,
         point_on_link(kinematics, workpiece_link(kinematics), obstacle.on, joints, found.on_obstacle + obstacle.shift),

@@ -216,6 +216,34 @@ TEST(ContactReports, ThePlaceIsOnTheSurfaceOfTheObstacle) {
   for (const Contact& contact : run.contacts) EXPECT_NEAR(contact.point.z(), 0, 1e-9);
 }
 
+/// Of a cutter that is thinner than the tolerance no point is farther from its surface, and of a pointed one not its
+/// point.
+TEST(ContactReports, ThinAndPointedCuttersGougeAsWell) {
+  const auto block = mesh_of({{0, 0, -40}, {100, 100, 0}});
+  for (const bool is_mesh : {true, false}) {
+    for (const solids::BodyOrProblem& made :
+         {solids::flat_body(0.2, 20), solids::flat_body(0.05, 20), solids::flat_body(0.25, 20),
+          solids::cone_body(3, 0, 20, 20), solids::drill_body(1.5, 118, 20)}) {
+      Shop shop;
+      shop.scene.target_tolerance = 0.2;
+      shop.scene.tools[Shop::kTool].cutter = Shop::body(made);
+      shop.scene.tools[Shop::kTool].holder.reset();
+      SceneBody& target = shop.box("", {0, 0, -40}, {100, 100, 0}, BodyRole::Target);
+      if (is_mesh) target.shape = block;
+      const auto run_at = [&](double depth) {
+        return shop.run(fmt::format("M06 T101001\nG00 X-50 Y50 Z10\nG01 Z{:.4f} F1000\nX80\nG00 Z10\nM02\n", -depth));
+      };
+      for (const double accepted : {-0.001, 0.0, 0.1, 0.2}) EXPECT_TRUE(run_at(accepted).contacts.empty()) << accepted;
+      for (const double depth : {0.25, 0.5, 1.0, 2.9, 15.0}) {
+        const VerifiedRun run = run_at(depth);
+        ASSERT_EQ(run.contacts.size(), 1u) << depth;
+        EXPECT_EQ(dialect::definition(run.contacts[0].id).code, "E155");
+        EXPECT_NEAR(run.contacts[0].distance, 0.2 - depth, 0.05) << depth;
+      }
+    }
+  }
+}
+
 TEST(ContactReports, FixturesOfOneNameAreTwo) {
   Shop shop;
   shop.scene.clearance = 0;

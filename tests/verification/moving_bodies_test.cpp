@@ -21,22 +21,6 @@ using kinematics::MachineKind;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// The triangles of a box, corners counterclockwise seen from outside.
-std::shared_ptr<const solids::Mesh> mesh_of(const solids::Cuboid& box) {
-  const auto corner = [&](int index) {
-    return Vec3((index & 1) != 0 ? box.maximum.x() : box.minimum.x(),
-                (index & 2) != 0 ? box.maximum.y() : box.minimum.y(),
-                (index & 4) != 0 ? box.maximum.z() : box.minimum.z());
-  };
-  constexpr int kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  std::vector<solids::Triangle> triangles;
-  for (const auto& quad : kQuads) {
-    triangles.push_back({{corner(quad[0]), corner(quad[1]), corner(quad[2])}});
-    triangles.push_back({{corner(quad[0]), corner(quad[2]), corner(quad[3])}});
-  }
-  return std::make_shared<const solids::Mesh>(std::move(triangles));
-}
-
 SceneBody& on_machine(Shop& shop, std::string name, Link on, BodyShape shape) {
   return shop.scene.machine.emplace_back(
       SceneBody{.name = std::move(name), .role = BodyRole::Machine, .on = on, .shape = std::move(shape)});

@@ -1,13 +1,31 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "interpreter/solids/tool_shapes.h"
 #include "interpreter/verification/surroundings.h"
 #include "interpreter/verification/verified_run.h"
 
 namespace isocnc::verification {
+
+/// The triangles of a box, corners counterclockwise seen from outside.
+inline std::shared_ptr<const solids::Mesh> mesh_of(const solids::Cuboid& box) {
+  const auto corner = [&](int index) {
+    return geometry::Vec3((index & 1) != 0 ? box.maximum.x() : box.minimum.x(),
+                          (index & 2) != 0 ? box.maximum.y() : box.minimum.y(),
+                          (index & 4) != 0 ? box.maximum.z() : box.minimum.z());
+  };
+  constexpr int kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  std::vector<solids::Triangle> triangles;
+  for (const auto& quad : kQuads) {
+    triangles.push_back({{corner(quad[0]), corner(quad[1]), corner(quad[2])}});
+    triangles.push_back({{corner(quad[0]), corner(quad[2]), corner(quad[3])}});
+  }
+  return std::make_shared<const solids::Mesh>(std::move(triangles));
+}
 
 /// A scene and the machine that runs in it. The tool T101001 is a flat cutter of radius 10, 60 long, in a holder of
 /// diameter 50 that is 40 high; the nose above it has a diameter of 120.
