@@ -93,6 +93,7 @@ void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
     contact = touch.visit->contact;
     contact.line = at_.line;
     contact.time = touch.touch->first;
+    contact.frame = at_.frame;
   }
   if (is_first || touch.touch->last >= contact.end_time) {
     contact.end_line = at_.line;
@@ -103,7 +104,6 @@ void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
   contact.who = touch.visit->contact.who;
   contact.distance = touch.touch->distance;
   contact.point = touch.touch->point;
-  contact.frame = at_.frame;
 }
 
 void ContactLog::take_near(Episode& episode, const Visit& visit) const {

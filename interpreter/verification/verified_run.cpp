@@ -79,11 +79,14 @@ static std::vector<Contact> shown_contacts(const std::vector<Contact>& contacts)
   for (Contact& contact : shown) {
     Contact& first = *firsts.try_emplace(contact.mistake, &contact).first->second;
     if (!(contact.distance < first.distance)) continue;
+    // In the frame of the line where the finding stands.
+    if (contact.enough) {
+      const geometry::Vec3 place = contact.frame.to_inner(contact.point);
+      first.enough = first.frame.to_inner(contact.frame.to_outer({place.x(), place.y(), *contact.enough})).z();
+    }
     first.who = contact.who;
     first.distance = contact.distance;
     first.point = contact.point;
-    first.frame = contact.frame;
-    first.enough = contact.enough;
   }
   return shown;
 }

@@ -244,6 +244,22 @@ TEST(ContactReports, ThinAndPointedCuttersGougeAsWell) {
   }
 }
 
+/// Of what repeats, the first finding shows the deepest place, and counts it as its own line does.
+TEST(ContactReports, TheDeepestPlaceIsInTheFrameOfTheFinding) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.scene.is_in_workpiece_frame = false;
+  shop.box("clamp", {590, 490, 0}, {610, 510, 50});
+  const VerifiedRun run = shop.run(
+      "M06 T101001\nG92 X500 Y500 Z0\nG00 X0 Y0 Z60\nX100\nZ45\nZ100\nG92 X400 Y400 Z0\nG00 X200\nY100\nZ30\nZ100\n"
+      "M02\n");
+  ASSERT_EQ(run.contacts.size(), 2u);
+  ASSERT_EQ(run.outcome.findings.size(), 2u);
+  for (const simulation::RunFinding& each : run.outcome.findings) EXPECT_NEAR(each.finding.values[0], 20, 0.03);
+  EXPECT_NEAR(run.outcome.findings[0].finding.values[1], 100, 10.01);
+  EXPECT_NEAR(run.outcome.findings[1].finding.values[1], 200, 10.01);
+}
+
 TEST(ContactReports, FixturesOfOneNameAreTwo) {
   Shop shop;
   shop.scene.clearance = 0;
