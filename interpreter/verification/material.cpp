@@ -72,7 +72,9 @@ std::optional<double> coarser_spacing(const removal::Workpiece& workpiece) {
 
 removal::CuttingTool cutting_tool(const Scene& scene, const MountedTool& tool) {
   const auto pointer = [](const std::optional<solids::RevolvedBody>& body) { return body ? &*body : nullptr; };
-  removal::CuttingTool cutting{.length = tool.length, .nose = pointer(scene.nose)};
+  removal::CuttingTool cutting{.length = tool.length};
+  if (!tool.name.empty() && !(tool.length > 0)) return cutting;
+  cutting.nose = pointer(scene.nose);
   if (!tool.bodies || !(tool.length > 0)) return cutting;
   cutting.cutter = pointer(tool.bodies->cutter);
   cutting.shank = pointer(tool.bodies->shank);

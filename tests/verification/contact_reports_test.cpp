@@ -260,6 +260,19 @@ TEST(ContactReports, TheDeepestPlaceIsInTheFrameOfTheFinding) {
   EXPECT_NEAR(run.outcome.findings[1].finding.values[1], 200, 10.01);
 }
 
+/// Without its length it is not known where the spindle is.
+TEST(ContactReports, AToolWithoutLengthHitsNothing) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.scene.tools.clear();
+  shop.machine.tool_lengths.clear();
+  shop.box("clamp", {-10, -10, -50}, {10, 10, 20});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X0 Y0 Z30\nZ-20\nM02\n");
+  EXPECT_TRUE(run.contacts.empty());
+  ASSERT_EQ(run.certificate->gaps.size(), 1u);
+  EXPECT_EQ(run.certificate->gaps[0].gap, Gap::ToolWithoutLength);
+}
+
 TEST(ContactReports, FixturesOfOneNameAreTwo) {
   Shop shop;
   shop.scene.clearance = 0;
