@@ -45,7 +45,6 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
 
 void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
   if (stretch.ends_move) ++certificate_.motions;
-  rest_.reset();
   stretches_.push_back(stretch);
   waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1});
   if (material_) material_->take(stretch, event, frames_.back());
@@ -66,9 +65,8 @@ MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& mac
           .length = machine.tool_length(tool)};
 }
 
-/// The machine at the end of a stretch, with another tool.
-static motion::Stretch rest_after(const motion::Stretch& stretch, const kinematics::Kinematics& kinematics,
-                                  double tool_length, double time) {
+motion::Stretch rest_after(const motion::Stretch& stretch, const kinematics::Kinematics& kinematics, double tool_length,
+                           double time) {
   motion::Stretch rest{.start = time, .phase_count = 1};
   rest.path.is_of_joints = true;
   rest.path.c[0] = stretch.at(kinematics, stretch.start + stretch.duration).joints;
@@ -78,14 +76,16 @@ static motion::Stretch rest_after(const motion::Stretch& stretch, const kinemati
 
 void Verifier::mount(const execution::ToolCode& tool, std::size_t line, double time) {
   examine_waiting();
-  examine_rest();
   log_.close_all();
   tool_ = tool;
   const MountedTool mounted = mounted_tool(scene_, machine_, tool);
   bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted, origin_);
   if (material_) material_->mount(tool, cutting_tool(scene_, mounted));
-  if (last_) rest_ = rest_after(*last_, machine_.motion.kinematics, mounted.length, time);
-  rest_line_ = line;
+  // What the tool touches where it is mounted.
+  if (last_) {
+    stretches_.push_back(rest_after(*last_, machine_.motion.kinematics, mounted.length, time));
+    waiting_.push_back({.line = line, .frame = frames_.size() - 1});
+  }
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;
   if ((has_length && has_shape) || !known_gaps_.insert(tool).second) return;
@@ -130,17 +130,8 @@ void Verifier::examine_waiting() {
   frames_ = {frames_.back()};
 }
 
-/// A motion after a tool change shows what the tool touches where it is mounted. Without one, this does.
-void Verifier::examine_rest() {
-  if (!rest_) return;
-  stretches_.push_back(*std::exchange(rest_, std::nullopt));
-  waiting_.push_back({.line = rest_line_, .frame = frames_.size() - 1});
-  examine_waiting();
-}
-
 void Verifier::finish() {
   examine_waiting();
-  examine_rest();
   log_.close_all();
   contacts_ = log_.contacts();
   certificate_.contacts = log_.contact_count();

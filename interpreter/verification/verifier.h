@@ -47,7 +47,6 @@ class Verifier {
 
   void mount(const execution::ToolCode& tool, std::size_t line, double time);
   void examine_waiting();
-  void examine_rest();
   void finish_material();
 
   const Scene& scene_;
@@ -62,8 +61,6 @@ class Verifier {
   std::vector<WaitingStretch> waiting_;
   std::size_t examined_ = 0;             ///< Stretches that have been examined.
   std::optional<motion::Stretch> last_;  ///< The last one of them.
-  std::optional<motion::Stretch> rest_;  ///< A tool change after which nothing has moved.
-  std::size_t rest_line_ = 0;            ///< Its line.
   ContactLog log_;
   std::optional<removal::MaterialCheck> material_;
   std::vector<Contact> contacts_;
@@ -72,6 +69,10 @@ class Verifier {
 
 /// A tool that a machine mounts, with its bodies in a scene. The result refers to the scene.
 MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool);
+
+/// The machine at the end of a stretch, with another tool, as it stands at `time`.
+motion::Stretch rest_after(const motion::Stretch& stretch, const kinematics::Kinematics& kinematics, double tool_length,
+                           double time);
 
 /// The origin of the first workpiece frame that a run sets (G92); machine frame, mm. 0 if it sets none.
 geometry::Vec3 first_workpiece_origin(std::string_view text, const running::RunOptions& options);

@@ -321,7 +321,7 @@ TEST(ContactReports, AGapIsNoDepth) {
   for (const simulation::RunFinding& each : run.outcome.findings) EXPECT_NEAR(each.finding.values[0], 0.01, 1e-9);
 }
 
-TEST(ContactReports, AToolChangeShowsWhatTheToolTouchesWhereNothingMovesAfterIt) {
+TEST(ContactReports, AToolChangeShowsWhatTheToolTouchesWhereItIsMounted) {
   Shop shop;
   shop.scene.clearance = 0;
   shop.box("clamp", {-10, -10, -50}, {10, 10, 20});
@@ -333,7 +333,7 @@ TEST(ContactReports, AToolChangeShowsWhatTheToolTouchesWhereNothingMovesAfterIt)
   const std::string start = "M06 T101001\nG00 X0 Y0 Z30\nM06 T101002\n";
   EXPECT_EQ(summaries(shop.run(start + "M02\n")), std::vector<std::string>{"E152 3 the cutter of T101002 | clamp"});
   EXPECT_EQ(summaries(shop.run(start + "G00 Z100\nM02\n")),
-            std::vector<std::string>{"E152 4 the cutter of T101002 | clamp"});
+            std::vector<std::string>{"E152 3 the cutter of T101002 | clamp"});
   EXPECT_TRUE(summaries(shop.run("M06 T101001\nG00 X0 Y0 Z100\nM06 T101002\nM02\n")).empty());
 }
 
