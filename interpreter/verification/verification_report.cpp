@@ -63,6 +63,10 @@ static std::vector<std::string> not_verified(const Certificate& certificate, Lan
   if (certificate.stopped_at)
     gaps.push_back(dialect::format(Text{"what follows the error on line {}", "ciò che segue l'errore alla linea {}"},
                                    language, *certificate.stopped_at + 1));
+  if (certificate.ended_before)
+    gaps.push_back(dialect::format(Text{"what follows from line {} on, which was not run",
+                                        "ciò che segue dalla linea {}, che non è stato eseguito"},
+                                   language, *certificate.ended_before + 1));
   return gaps;
 }
 

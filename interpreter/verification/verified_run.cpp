@@ -132,6 +132,7 @@ VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier,
                                        .stock = material->stock(),
                                        .origin = material->workpiece().origin};
   if (result.ending == running::Ending::Error) verified.certificate->stopped_at = result.line;
+  if (result.ending == running::Ending::Until) verified.certificate->ended_before = result.line;
   verified.outcome.has_scene = true;
   verified.outcome.has_stock = verifier.material() != nullptr;
   if (verified.material)

@@ -273,6 +273,17 @@ TEST(ContactReports, AToolWithoutLengthHitsNothing) {
   EXPECT_EQ(run.certificate->gaps[0].gap, Gap::ToolWithoutLength);
 }
 
+TEST(ContactReports, TheCertificateSaysWhatWasNotRun) {
+  const Shop shop;
+  running::RunOptions options;
+  options.setup.home = shop.machine.home;
+  options.until = 2;
+  const VerifiedRun run = verified_run("M06 T101001\nG00 X0\nX100\nM02\n", options, shop.machine, &shop.scene);
+  EXPECT_NE(in_words(*run.certificate, Language::English).find("not verified: what follows from line 3 on"),
+            std::string::npos);
+  EXPECT_NE(to_json(run, Language::English)["certificate"]["notVerified"].dump().find("line 3"), std::string::npos);
+}
+
 TEST(ContactReports, FixturesOfOneNameAreTwo) {
   Shop shop;
   shop.scene.clearance = 0;
