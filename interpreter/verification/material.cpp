@@ -72,10 +72,10 @@ std::optional<double> coarser_spacing(const removal::Workpiece& workpiece) {
 
 removal::CuttingTool cutting_tool(const Scene& scene, const MountedTool& tool) {
   const auto pointer = [](const std::optional<solids::RevolvedBody>& body) { return body ? &*body : nullptr; };
-  removal::CuttingTool cutting{.length = tool.length};
-  if (!tool.name.empty() && !(tool.length > 0)) return cutting;
-  cutting.nose = pointer(scene.nose);
-  if (!tool.bodies || !(tool.length > 0)) return cutting;
+  // Without its length, nothing on the spindle is at its place.
+  if (!(tool.length > 0)) return {};
+  removal::CuttingTool cutting{.length = tool.length, .nose = pointer(scene.nose)};
+  if (!tool.bodies) return cutting;
   cutting.cutter = pointer(tool.bodies->cutter);
   cutting.shank = pointer(tool.bodies->shank);
   cutting.holder = pointer(tool.bodies->holder);
