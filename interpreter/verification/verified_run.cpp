@@ -15,8 +15,8 @@ namespace isocnc::verification {
 using namespace dialect::literals;
 using simulation::RunFinding;
 
-/// A value as a message shows it.
-static double rounded(double value, double unit) { return std::round(value / unit) * unit; }
+/// A value as a message shows it: with as few digits, too. `unit` is 1 or a decimal part of it.
+static double rounded(double value, double unit) { return std::round(value / unit) / std::round(1 / unit); }
 
 /// The finding that tells what goes wrong with the material.
 static syntax::Finding finding_about_material(const Contact& contact, const geometry::Vec3& point) {

@@ -332,6 +332,19 @@ TEST(ContactReports, AGapIsNoDepth) {
   for (const simulation::RunFinding& each : run.outcome.findings) EXPECT_NEAR(each.finding.values[0], 0.01, 1e-9);
 }
 
+TEST(ContactReports, ValuesHaveAsFewDigitsAsMessagesShow) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("clamp", {-10, -10, -50}, {10, 10, 20});
+  for (int i = 0; i < 20; ++i) {
+    const VerifiedRun run =
+        shop.run(fmt::format("M06 T101001\nG00 X-{} Y0.{} Z50\nG01 Z10.{} F1000\nX50\nM02\n", 50 + i, i, i));
+    ASSERT_EQ(run.outcome.findings.size(), 1u);
+    for (const double value : run.outcome.findings[0].finding.values)
+      EXPECT_LE(fmt::format("{}", value).size(), 6u) << value;
+  }
+}
+
 TEST(ContactReports, AToolChangeShowsWhatTheToolTouchesWhereItIsMounted) {
   Shop shop;
   shop.scene.clearance = 0;
