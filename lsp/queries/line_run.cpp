@@ -34,4 +34,11 @@ std::vector<LineRun> run_line_on_all_paths(const documents::Snapshot& snapshot, 
   return runs;
 }
 
+bool is_never_reached(const documents::Snapshot& snapshot, std::size_t line) {
+  if (line >= snapshot.document().line_count()) return false;
+  const check::Frontier frontier = snapshot.frontier_before(line);
+  const syntax::DocumentLine read = snapshot.document().line(line);
+  return !frontier.reduced && frontier.live_at(*read).empty();
+}
+
 }  // namespace isocnc::queries

@@ -24,4 +24,7 @@ std::optional<LineRun> run_line(const documents::Snapshot& snapshot, std::size_t
 /// Executes a line from each state in which paths reach it. Returns an empty list if not all of these states are known.
 std::vector<LineRun> run_line_on_all_paths(const documents::Snapshot& snapshot, std::size_t line);
 
+/// Whether it is known that no path leads to a line.
+bool is_never_reached(const documents::Snapshot& snapshot, std::size_t line);
+
 }  // namespace isocnc::queries

@@ -74,7 +74,8 @@ class LinesAbove {
       if (is_reached_by_jump(line) && !are_jumps_on_program(line, jumps_followed)) return false;
       if (lines_left_-- == 0) return false;
       const std::vector<LineRun> runs = run_line_on_all_paths(snapshot_, line - 1);
-      if (runs.empty()) return false;
+      // Then only the jumps lead here that have been looked at.
+      if (runs.empty()) return is_never_reached(snapshot_, line - 1);
       std::vector<ShownByLines> after = std::exchange(shown, {});
       for (const LineRun& run : runs) {
         const bool may_shift = changes_length(run, line - 1).value_or(true);

@@ -104,6 +104,14 @@ TEST_F(Obstacles, AreMeasuredFromWhereTheMachineIs) {
   EXPECT_EQ(last_of_hover(5), "nearest: clamp 2, 70 mm");
 }
 
+/// A line that no path leads to hides nothing.
+TEST_F(Obstacles, AreNamedAfterAJumpThatIsAlwaysTaken) {
+  start();
+  open("M06 T101001\nG00 X0 Y0 Z60\nV1 = 3\nIF V1 = 3 GOTO N30\nX50\nN30 X120 Y0\nZ20\nM02\n");
+  EXPECT_EQ(last_of_hover(5, 4), "nearest: clamp 2, 30 mm");
+  EXPECT_EQ(last_of_hover(6), "hits clamp 2, 10 mm deep");
+}
+
 TEST_F(Obstacles, OnSeveralPathsTheNearestCounts) {
   start();
   open("M06 T101001\nG00 X0 Y0 Z10\nIF V1=1 GOTO N5\nX50\nN5 Y1\nX-30\nX70\nM02\n");
