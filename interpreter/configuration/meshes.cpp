@@ -68,7 +68,12 @@ Meshes::MeshOrMistake Meshes::read(const fs::path& file, const std::string& name
   if (const auto* const problem = std::get_if<system::FileBytesProblem>(&bytes)) return mistake_of(*problem, name);
   auto triangles = solids::read_stl(std::get<std::string>(bytes));
   if (const auto* const problem = std::get_if<StlProblem>(&triangles)) return mistake_of(*problem, name);
-  return std::make_shared<const Mesh>(std::get<std::vector<Triangle>>(std::move(triangles)));
+  auto mesh = std::make_shared<const Mesh>(std::get<std::vector<Triangle>>(std::move(triangles)));
+  // Where nothing is inside, nothing can be found to be inside.
+  const solids::MeshTopology& topology = mesh->topology();
+  if (topology.open_edges > 0) return mistake(mistakes::kMeshOpen, name, fmt::format("{}", topology.open_edges));
+  if (!topology.is_closed()) return mistake(mistakes::kMeshFlat, name);
+  return mesh;
 }
 
 const Meshes::MeshOrMistake& Meshes::unshifted(const fs::path& folder, const std::string& name) {

@@ -179,6 +179,11 @@ inline constexpr dialect::Text kMeshTooFar = {"{0}, triangle {1}: a coordinate t
                                               "{0}, triangolo {1}: una coordinata oltre il chilometro"};
 inline constexpr dialect::Text kMeshShiftedTooFar = {"{0}: its shift takes it farther away than a kilometer",
                                                      "{0}: lo spostamento la porta oltre il chilometro"};
+inline constexpr dialect::Text kMeshOpen = {
+    "{0} is open, so that it encloses nothing: {1} edges without a second triangle",
+    "{0} è aperta, quindi non racchiude nulla: {1} spigoli senza un secondo triangolo"};
+inline constexpr dialect::Text kMeshFlat = {"{0} encloses nothing: its triangles have no volume between them",
+                                            "{0} non racchiude nulla: fra i suoi triangoli non c'è volume"};
 inline constexpr dialect::Text kMeshHuge = {"{0} has more triangles than any mesh",
                                             "{0} ha troppi triangoli per una mesh"};
 }  // namespace mistakes

@@ -31,12 +31,12 @@ using verification::Link;
 using verification::Scene;
 using verification::SceneBody;
 
-/// A binary STL file of one tetrahedron, from the origin to 10 mm along each axis.
-std::string tetrahedron() {
+/// A binary STL file of one tetrahedron, from the origin along each axis.
+std::string tetrahedron(double size = 10) {
   const Vec3 o = Vec3::Zero();
-  const Vec3 x(10, 0, 0);
-  const Vec3 y(0, 10, 0);
-  const Vec3 z(0, 0, 10);
+  const Vec3 x(size, 0, 0);
+  const Vec3 y(0, size, 0);
+  const Vec3 z(0, 0, size);
   const std::vector<solids::Triangle> triangles = {{{o, y, x}}, {{o, x, z}}, {{o, z, y}}, {{x, y, z}}};
   return solids::write_stl(triangles);
 }
@@ -224,15 +224,13 @@ TEST_F(SceneFiles, PreferTheFileBesideTheProgram) {
 TEST_F(SceneFiles, FindMeshesFromTheFileThatNamesThem) {
   write("isocnc.json", R"({"machine": {"bodies": [{"name": "m", "mesh": "a.stl"}]}})");
   write("a.stl", tetrahedron());
-  write("sub/a.stl",
-        "solid\nfacet normal 0 0 0 outer loop vertex 0 0 0 vertex 5 0 0 vertex 0 5 0 endloop endfacet\n"
-        "endsolid\n");
+  write("sub/a.stl", tetrahedron(5));
   write("sub/p.setup.json", R"({"target": {"mesh": "a.stl"}, "fixtures": [{"name": "x", "mesh": "./a.stl"}]})");
   const auto found = scene("sub/p.iso");
   ASSERT_NE(found, nullptr) << mistakes();
   EXPECT_EQ(bounds_of(found->machine[0]), "0 0 0 to 10 10 10");
-  EXPECT_EQ(bounds_of(found->setup[0]), "0 0 0 to 5 5 0");
-  EXPECT_EQ(bounds_of(found->setup[1]), "0 0 0 to 5 5 0");
+  EXPECT_EQ(bounds_of(found->setup[0]), "0 0 0 to 5 5 5");
+  EXPECT_EQ(bounds_of(found->setup[1]), "0 0 0 to 5 5 5");
 }
 
 TEST_F(SceneFiles, ReadEachMeshOnce) {
@@ -304,11 +302,17 @@ TEST_F(SceneFiles, RefuseFilesThatAreNoMesh) {
   std::string far = good;
   far.replace(84 + 12, 4, "\0\0\0\x50", 4);
   EXPECT_EQ(said_of(far), "m.stl, triangle 1: a coordinate that is farther away than a kilometer");
+  std::string open = with_count(3);
+  open.resize(open.size() - 50);
+  EXPECT_EQ(said_of(open), "m.stl is open, so that it encloses nothing: 3 edges without a second triangle");
+  const solids::Triangle front = {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}};
+  const solids::Triangle back = {{Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0)}};
+  EXPECT_EQ(said_of(solids::write_stl(std::vector{front, back})),
+            "m.stl encloses nothing: its triangles have no volume between them");
 }
 
 TEST_F(SceneFiles, RefuseAShiftThatLeadsTooFar) {
-  const std::vector<solids::Triangle> far = {{{Vec3(-950'000, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}}};
-  write("m.stl", solids::write_stl(far));
+  write("m.stl", tetrahedron(-950'000));
   write("p.setup.json", R"({"target": {"mesh": "m.stl", "at": [-60000, 0, 0]}})");
   EXPECT_EQ(scene("p.iso"), nullptr);
   EXPECT_EQ(mistakes(),

@@ -1,12 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "interpreter/solids/stl.h"
 #include "lsp/documents/kept_run.h"
 #include "lsp/protocol/uri.h"
 #include "session.h"
@@ -153,9 +155,11 @@ TEST_F(VerificationTest, ReportsMeshesThatCannotBeHad) {
   // The mesh arrives.
   session_.edit(setup, 3, {change(1, 21, 1, 25, "door")});
   EXPECT_EQ(mistakes().size(), 1u);
-  folder_.write("door.stl",
-                "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-                "endsolid a\n");
+  const geometry::Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::vector<solids::Triangle> triangles;
+  for (const auto& [a, b, c] : std::array<std::array<int, 3>, 4>{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}})
+    triangles.push_back({{corners[a], corners[b], corners[c]}});
+  folder_.write("door.stl", solids::write_stl(triangles));
   const std::string mesh = uri_.substr(0, uri_.rfind('/')) + "/door.STL";
   session_.notify("workspace/didChangeWatchedFiles", {{"changes", Json::array({{{"uri", mesh}, {"type", 1}}})}});
   EXPECT_THAT(mistakes(), IsEmpty());
