@@ -271,9 +271,11 @@ class Examination {
   Clearance distance_of(StretchPlaces& places, const BodyPair& pair, double s, double sufficient) const {
     const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
     const MovingPart& part = bodies_.parts[pair.part];
+    // A search that ended early between bodies that overlap would not show how deep they do.
+    const double enough = pair.allowed > 0 ? std::max(0.0, sufficient - pair.allowed) : sufficient;
     if (pair.revolved)
-      return pair.counted(distance_to(obstacle.shape, *pair.revolved, places.tool_at(s, part.offset, obstacle),
-                                      sufficient - pair.allowed));
+      return pair.counted(
+          distance_to(obstacle.shape, *pair.revolved, places.tool_at(s, part.offset, obstacle), enough));
     return distance_to(obstacle.shape, part.body->shape, places.body_at(s, part, obstacle), sufficient);
   }
 

@@ -222,8 +222,8 @@ TEST(ContactReports, ThinAndPointedCuttersGougeAsWell) {
   const auto block = mesh_of({{0, 0, -40}, {100, 100, 0}});
   for (const bool is_mesh : {true, false}) {
     for (const solids::BodyOrProblem& made :
-         {solids::flat_body(0.2, 20), solids::flat_body(0.05, 20), solids::flat_body(0.25, 20),
-          solids::cone_body(3, 0, 20, 20), solids::drill_body(1.5, 118, 20)}) {
+         {solids::flat_body(0.2, 20), solids::flat_body(0.2, 3), solids::flat_body(0.05, 20),
+          solids::flat_body(0.25, 20), solids::cone_body(3, 0, 20, 20), solids::drill_body(1.5, 118, 20)}) {
       Shop shop;
       shop.scene.target_tolerance = 0.2;
       shop.scene.tools[Shop::kTool].cutter = Shop::body(made);
@@ -233,6 +233,9 @@ TEST(ContactReports, ThinAndPointedCuttersGougeAsWell) {
       const auto run_at = [&](double depth) {
         return shop.run(fmt::format("M06 T101001\nG00 X-50 Y50 Z10\nG01 Z{:.4f} F1000\nX80\nG00 Z10\nM02\n", -depth));
       };
+      // In and out again is one contact.
+      const VerifiedRun plunge = shop.run("M06 T101001\nG00 X50 Y50 Z10\nG01 Z-2.9 F1000\nX80\nZ10\nM02\n");
+      EXPECT_EQ(plunge.contacts.size(), 1u);
       for (const double accepted : {-0.001, 0.0, 0.1, 0.2}) EXPECT_TRUE(run_at(accepted).contacts.empty()) << accepted;
       for (const double depth : {0.25, 0.5, 1.0, 2.9, 15.0}) {
         const VerifiedRun run = run_at(depth);
