@@ -258,9 +258,14 @@ static Removed removed_by(const SweepOutcome& outcome, const SweepPath& path, do
     removed.width = width_of_cut(outcome.volume, outcome.depth, length, diameter);
     return removed;
   }
+  removed.depth = 0;
+  const bool is_plunge = length < diameter / 20 && length_of(path) > length;
+  // At the begin of a slot the crescent before the cutter is not as wide as the slot.
+  if (!is_plunge && length < diameter / 2) return removed;
   removed.width = std::min(diameter, outcome.length * std::sqrt(1 - steepness * steepness));
-  const double area =
-      length < diameter / 20 ? removed.width * removed.width * 3.141592653589793 / 4 : removed.width * length;
+  // Slivers, as an earlier cut has left them, have no depth.
+  if (removed.width < diameter / 20) return {.volume = outcome.volume};
+  const double area = is_plunge ? removed.width * removed.width * 3.141592653589793 / 4 : removed.width * length;
   removed.depth = area > 0 ? outcome.volume / area : 0;
   return removed;
 }
@@ -491,9 +496,11 @@ void MaterialCheck::find_worst(Episode& episode, const Stock& before) {
   if (!is_hit) return;
   incident.enough.reset();
   const std::optional<double> rise = enough_rise(before, *body_of(use.role), path, up);
-  // The dexels do not measure along a tool that lies.
-  if (rise && std::abs(up.z()) < std::sqrt(0.5)) incident.amount = *rise + skin_;
-  if (rise) incident.enough = std::ceil((incident.level + *rise + skin_ - 0.01) * 10) / 10 + 0.0;  // No -0.
+  if (!rise) return;
+  // The dexels do not measure along a tool that lies, and the material ends up to half a spacing beside them.
+  const double aside = stock_.spacing() / 2 * (1 - std::abs(up.z()));
+  if (std::abs(up.z()) < std::sqrt(0.5)) incident.amount = *rise + skin_ + aside;
+  incident.enough = std::ceil((incident.level + *rise + skin_ + aside - 0.01) * 10) / 10 + 0.0;  // No -0.
 }
 
 void MaterialCheck::close(Episode& episode) {
