@@ -1396,7 +1396,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "blank or stands elsewhere, or something was cut before that this program does not cut.",
           .it = "In rapido la macchina va alla massima velocità, e la fresa incontra ciò che resta del grezzo. I "
                 "rapidi non sono rettilinei quando gli assi impiegano tempi diversi: conta il percorso che la macchina "
-                "compie davvero. Passare più in alto, o in lavoro. La Z del messaggio è la più bassa, a 0,1 mm, con "
+                "compie davvero. Passare più in alto, o in lavoro. La Z del messaggio è la più bassa, a 0.1 mm, con "
                 "cui questo movimento non incontra nulla. Se alla macchina la strada è libera, il grezzo (stock) in "
                 "isocnc.json è più grande di quello vero o sta altrove, oppure qualcosa è già stato tagliato fuori da "
                 "questo programma."},

@@ -66,8 +66,10 @@ void record(removal::MaterialCheck& material, std::optional<StockRecording>& rec
   });
 }
 
-StockRecording::Change StockRecording::change_of(std::uint32_t dexel, std::uint32_t line, const Material& material) {
-  Change change{dexel, line, static_cast<std::uint32_t>(heights_.size()), static_cast<std::uint32_t>(material.size())};
+StockRecording::DexelChange StockRecording::change_of(std::uint32_t dexel, std::uint32_t line,
+                                                      const Material& material) {
+  DexelChange change{dexel, line, static_cast<std::uint32_t>(heights_.size()),
+                     static_cast<std::uint32_t>(material.size())};
   for (auto each = material.rbegin(); each != material.rend(); ++each) {
     heights_.push_back(in_units(each->top, kMicrometer) + shift_);
     heights_.push_back(in_units(each->top, kMicrometer) - in_units(each->bottom, kMicrometer));
@@ -76,7 +78,7 @@ StockRecording::Change StockRecording::change_of(std::uint32_t dexel, std::uint3
 }
 
 void StockRecording::take(const Stock& now, double time) {
-  Moment moment{.time = time};
+  StockMoment moment{.time = time};
   stock::for_each_change(shown_, now, [&](int row, int column) {
     if (row % step_ != first_ || column % step_ != first_) return;
     const Tile& tile = now.tile({column / Tile::kSize, row / Tile::kSize});
@@ -89,7 +91,7 @@ void StockRecording::take(const Stock& now, double time) {
   shown_ = now;
   if (moment.changes.empty()) return;
   std::sort(moment.changes.begin(), moment.changes.end(),
-            [](const Change& a, const Change& b) { return a.dexel < b.dexel; });
+            [](const DexelChange& a, const DexelChange& b) { return a.dexel < b.dexel; });
   moments_.push_back(std::move(moment));
   if (moments_.size() > kMaxMoments) thin();
 }
@@ -98,12 +100,12 @@ void StockRecording::take(const Stock& now, double time) {
 void StockRecording::thin() {
   interval_ *= 2;
   for (std::size_t i = 0; i + 1 < moments_.size(); i += 2) {
-    const std::vector<Change>& early = moments_[i].changes;
-    const std::vector<Change>& late = moments_[i + 1].changes;
-    Moment both{.time = moments_[i + 1].time};
+    const std::vector<DexelChange>& early = moments_[i].changes;
+    const std::vector<DexelChange>& late = moments_[i + 1].changes;
+    StockMoment both{.time = moments_[i + 1].time};
     both.changes.reserve(early.size() + late.size());
     auto next = late.begin();
-    for (const Change& each : early) {
+    for (const DexelChange& each : early) {
       for (; next != late.end() && next->dexel < each.dexel; ++next) both.changes.push_back(*next);
       if (next == late.end() || next->dexel != each.dexel) both.changes.push_back(each);
     }
@@ -117,7 +119,7 @@ void StockRecording::thin() {
 std::string_view StockRecording::bytes() {
   if (!std::exchange(is_packed_, true)) {
     double before = 0;
-    for (const Moment& moment : moments_) {
+    for (const StockMoment& moment : moments_) {
       put(moment, before);
       before = moment.time;
     }
@@ -130,7 +132,7 @@ void StockRecording::put_interval(std::int64_t top, std::int64_t length) {
   bytes_.put(static_cast<std::uint64_t>(length));
 }
 
-void StockRecording::put_material(const Change& change) {
+void StockRecording::put_material(const DexelChange& change) {
   bytes_.put(change.count);
   for (std::uint32_t i = 0; i < change.count; ++i)
     put_interval(heights_[change.first + 2 * i], heights_[change.first + 2 * i + 1]);
@@ -161,15 +163,16 @@ void StockRecording::put_picture(const std::vector<Material>& dexels) {
   }
 }
 
-bool StockRecording::is_same(const Change& a, const Change& b) const {
+bool StockRecording::is_same(const DexelChange& a, const DexelChange& b) const {
   return a.count == b.count &&
          std::equal(heights_.begin() + a.first, heights_.begin() + a.first + 2 * a.count, heights_.begin() + b.first);
 }
 
-void StockRecording::put(const Moment& moment, double before) {
+void StockRecording::put(const StockMoment& moment, double before) {
   last_top_ = 0;
-  std::vector<Change> changes = moment.changes;
-  std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.line < b.line; });
+  std::vector<DexelChange> changes = moment.changes;
+  std::stable_sort(changes.begin(), changes.end(),
+                   [](const DexelChange& a, const DexelChange& b) { return a.line < b.line; });
   const auto end_of_group = [&](std::size_t i) {
     const std::uint32_t line = changes[i].line;
     while (i < changes.size() && changes[i].line == line) ++i;

@@ -41,23 +41,23 @@ class StockRecording {
 
  private:
   /// The material that a dexel has from a moment on.
-  struct Change {
+  struct DexelChange {
     std::uint32_t dexel = 0;
     std::uint32_t line = 0;
     std::uint32_t first = 0;  ///< Of its heights; two for each interval, from the highest down.
     std::uint32_t count = 0;  ///< Intervals.
   };
-  struct Moment {
+  struct StockMoment {
     double time = 0;
-    std::vector<Change> changes;  ///< By dexel.
+    std::vector<DexelChange> changes;  ///< By dexel.
   };
 
   void thin();
-  Change change_of(std::uint32_t dexel, std::uint32_t line, const std::vector<stock::HeightInterval>& material);
+  DexelChange change_of(std::uint32_t dexel, std::uint32_t line, const std::vector<stock::HeightInterval>& material);
   void put_picture(const std::vector<std::vector<stock::HeightInterval>>& dexels);
-  void put(const Moment& moment, double before);
-  bool is_same(const Change& a, const Change& b) const;
-  void put_material(const Change& change);
+  void put(const StockMoment& moment, double before);
+  bool is_same(const DexelChange& a, const DexelChange& b) const;
+  void put_material(const DexelChange& change);
   void put_material(const std::vector<stock::HeightInterval>& material);
   void put_interval(std::int64_t top, std::int64_t length);
 
@@ -67,7 +67,7 @@ class StockRecording {
   int first_ = 0;  ///< The first that is.
   bool has_target_;
   double interval_ = 0.05;
-  std::vector<Moment> moments_;
+  std::vector<StockMoment> moments_;
   std::vector<std::int64_t> heights_;  ///< µm
   std::int64_t shift_ = 0;             ///< Of the stock's frame in the machine's, upwards; µm.
   std::int64_t last_top_ = 0;

@@ -51,9 +51,9 @@ class Sets {
 };
 
 /// Compares a stock with its target, block by block.
-class Comparison {
+class TargetComparison {
  public:
-  Comparison(const Stock& stock, const stock::Blank& target, double tolerance)
+  TargetComparison(const Stock& stock, const stock::Blank& target, double tolerance)
       : stock_(stock),
         target_(target),
         tolerance_(tolerance),
@@ -221,7 +221,7 @@ void add(const Run& run, Run& to) {
 }  // namespace
 
 std::vector<LeftRegion> left_on_target(const Stock& stock, const stock::Blank& target, double tolerance) {
-  std::vector<Run> runs = Comparison(stock, target, tolerance).runs();
+  std::vector<Run> runs = TargetComparison(stock, target, tolerance).runs();
   Sets sets(runs.size());
   std::size_t below = 0;  // The first run of the row before that may touch.
   for (std::size_t i = 0; i < runs.size(); ++i) {

@@ -88,7 +88,7 @@ void MaterialCheck::take(const motion::Stretch& stretch, const simulation::Timed
 void MaterialCheck::show_moments(const motion::Stretch& stretch) {
   const double end = stretch.start + stretch.duration;
   if (next_moment_ > end) return;
-  const WaitingStretch last = std::move(waiting_.back());
+  const UncutStretch last = std::move(waiting_.back());
   waiting_.pop_back();
   const std::vector<TipPath> pieces = pieces_;
   cut_waiting();
@@ -261,7 +261,8 @@ static Removed removed_by(const SweepOutcome& outcome, const SweepPath& path, do
   removed.depth = 0;
   const bool is_plunge = length < diameter / 20 && length_of(path) > length;
   // At the begin of a slot the crescent before the cutter is not as wide as the slot.
-  if (!is_plunge && length < diameter / 2) return removed;
+  const bool is_straight = std::holds_alternative<stock::StraightPath>(path);
+  if (!is_plunge && (!is_straight || length < diameter / 2)) return removed;
   removed.width = std::min(diameter, outcome.length * std::sqrt(1 - steepness * steepness));
   // Slivers, as an earlier cut has left them, have no depth.
   if (removed.width < diameter / 20) return {.volume = outcome.volume};
@@ -274,7 +275,7 @@ static Removed removed_by(const SweepOutcome& outcome, const SweepPath& path, do
 void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
   if (!outcome.meets()) return;
   const SweepUse& use = uses_[sweep];
-  const WaitingStretch& stretch = waiting_[use.stretch];
+  const UncutStretch& stretch = waiting_[use.stretch];
   const Removed removed = removed_by(outcome, sweeps_[sweep].path, 2 * sweeps_[sweep].body->maximum_radius());
   if (!tool_) {
     const auto known =
@@ -316,12 +317,12 @@ void MaterialCheck::look_at(std::size_t sweep, const SweepOutcome& outcome) {
   }
 }
 
-void MaterialCheck::touch(const EpisodeKey& key, std::size_t sweep, const SweepOutcome& outcome) {
+void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const SweepOutcome& outcome) {
   const SweepUse& use = uses_[sweep];
-  const WaitingStretch& stretch = waiting_[use.stretch];
+  const UncutStretch& stretch = waiting_[use.stretch];
   const std::size_t number = cut_ + use.stretch;
   const auto [known, is_new] = open_.try_emplace(key);
-  Episode& episode = known->second;
+  OpenIncident& episode = known->second;
   const bool goes_on = !is_new && number <= episode.last_stretch + 1;
   if (!is_new && !goes_on) close(episode);
   if (!goes_on) {
@@ -348,7 +349,7 @@ void MaterialCheck::touch(const EpisodeKey& key, std::size_t sweep, const SweepO
 /// Feed motions that meet nothing, one after another, are one.
 void MaterialCheck::note_ways(const std::vector<bool>& has_cut) {
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
-    const WaitingStretch& each = waiting_[i];
+    const UncutStretch& each = waiting_[i];
     if (!each.is_feed || has_cut[i]) {
       end_way();
       continue;
@@ -369,16 +370,16 @@ void MaterialCheck::end_way() {
 void MaterialCheck::look_closely(Stock before) {
   struct Question {
     std::size_t sweep;
-    Episode* episode;
+    OpenIncident* episode;
     bool is_first;
   };
   std::vector<Question> questions;
-  const auto ask = [&](Episode& episode) {
+  const auto ask = [&](OpenIncident& episode) {
     if (episode.first_sweep) questions.push_back({*episode.first_sweep, &episode, true});
     if (episode.deepest_sweep) questions.push_back({*episode.deepest_sweep, &episode, false});
   };
   for (auto& [key, episode] : open_) ask(episode);
-  for (Episode& episode : closed_) ask(episode);
+  for (OpenIncident& episode : closed_) ask(episode);
   std::stable_sort(questions.begin(), questions.end(),
                    [](const Question& a, const Question& b) { return a.sweep < b.sweep; });
   std::size_t done = 0;
@@ -397,7 +398,7 @@ void MaterialCheck::look_closely(Stock before) {
     }
   }
   for (auto& [key, episode] : open_) episode.first_sweep = episode.deepest_sweep = std::nullopt;
-  for (Episode& episode : closed_) keep(episode.incident);
+  for (OpenIncident& episode : closed_) keep(episode.incident);
   closed_.clear();
 }
 
@@ -408,7 +409,7 @@ static SweepOutcome ask(const Stock& stock, const RevolvedBody& body, const Swee
   return copy.apply({&sweep, 1}).front();
 }
 
-void MaterialCheck::find_first_touch(Episode& episode, const Stock& before) {
+void MaterialCheck::find_first_touch(OpenIncident& episode, const Stock& before) {
   const SweepUse& use = uses_[*episode.first_sweep];
   const RevolvedBody* const body = body_of(use.role);
   if (!body || use.role == Role::Cut) return;
@@ -443,7 +444,7 @@ static std::optional<double> enough_rise(const Stock& stock, const RevolvedBody&
   return free;
 }
 
-void MaterialCheck::find_worst(Episode& episode, const Stock& before) {
+void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   const std::size_t index = *episode.deepest_sweep;
   const SweepUse& use = uses_[index];
   const SweepPath& path = sweeps_[index].path;
@@ -503,7 +504,7 @@ void MaterialCheck::find_worst(Episode& episode, const Stock& before) {
   incident.enough = std::ceil((incident.level + *rise + skin_ + aside - 0.01) * 10) / 10 + 0.0;  // No -0.
 }
 
-void MaterialCheck::close(Episode& episode) {
+void MaterialCheck::close(OpenIncident& episode) {
   // What the present batch has shown of it is still to be looked at.
   if (episode.first_sweep || episode.deepest_sweep) {
     closed_.push_back(episode);

@@ -66,7 +66,7 @@ class MaterialCheck {
   };
 
   /// A stretch that waits for being cut.
-  struct WaitingStretch {
+  struct UncutStretch {
     motion::Stretch stretch;
     std::size_t line = 0;
     std::size_t frame = 0;  ///< Index of the frame in force.
@@ -83,14 +83,14 @@ class MaterialCheck {
   };
 
   /// An incident that may go on.
-  struct Episode {
+  struct OpenIncident {
     Incident incident;
     std::size_t last_stretch = 0;              ///< Counted from the start of the run.
     double deepest = 0;                        ///< Of the sweeps that have been compared, mm.
     std::optional<std::size_t> first_sweep;    ///< Of the present batch, where it begins there.
     std::optional<std::size_t> deepest_sweep;  ///< Of the present batch, where it is worst there.
   };
-  using EpisodeKey = std::pair<IncidentKind, ToolPart>;
+  using IncidentKey = std::pair<IncidentKind, ToolPart>;
 
   void show_moments(const motion::Stretch& stretch);
   void append_sweeps(const TipPath& piece, bool is_feed);
@@ -99,16 +99,16 @@ class MaterialCheck {
   void cut_waiting();
   void account(std::size_t sweep, const stock::SweepOutcome& outcome);
   void look_at(std::size_t sweep, const stock::SweepOutcome& outcome);
-  void touch(const EpisodeKey& key, std::size_t sweep, const stock::SweepOutcome& outcome);
+  void touch(const IncidentKey& key, std::size_t sweep, const stock::SweepOutcome& outcome);
   void note_ways(const std::vector<bool>& has_cut);
   void end_way();
   void look_closely(stock::Stock before);
-  void find_first_touch(Episode& episode, const stock::Stock& before);
-  void find_worst(Episode& episode, const stock::Stock& before);
+  void find_first_touch(OpenIncident& episode, const stock::Stock& before);
+  void find_worst(OpenIncident& episode, const stock::Stock& before);
   stock::SweepPath placed(const stock::SweepPath& tip, Role role) const;
   void compare_with_target();
   void look_for_loose_pieces();
-  void close(Episode& episode);
+  void close(OpenIncident& episode);
   void close_all();
   void keep(Incident incident);
   const solids::RevolvedBody* body_of(Role role) const;
@@ -131,13 +131,13 @@ class MaterialCheck {
   double last_time_ = 0;
   geometry::Frame last_frame_;
   std::vector<geometry::Frame> frames_;
-  std::vector<WaitingStretch> waiting_;
+  std::vector<UncutStretch> waiting_;
   std::vector<stock::Sweep> sweeps_;
   std::vector<SweepUse> uses_;
   std::vector<TipPath> pieces_;  ///< Kept, so that its memory is.
   std::size_t cut_ = 0;          ///< Stretches that have been cut.
-  std::map<EpisodeKey, Episode> open_;
-  std::vector<Episode> closed_;  ///< Of the present batch.
+  std::map<IncidentKey, OpenIncident> open_;
+  std::vector<OpenIncident> closed_;  ///< Of the present batch.
   /// Incidents are looked at closely up to this number: each takes some thousand sweeps.
   static constexpr std::size_t kMaxLookedAt = 500;
   std::size_t looked_at_ = 0;

@@ -39,7 +39,7 @@ class ContactLog {
   std::size_t left_out() const { return left_out_; }    ///< Contacts and near misses beyond kMaxContacts.
 
  private:
-  using Place = std::pair<std::size_t, Mover>;  ///< An obstacle and what comes near it.
+  using ContactPlace = std::pair<std::size_t, Mover>;  ///< An obstacle and what comes near it.
 
   /// What is going on at an obstacle.
   struct Episode {
@@ -54,7 +54,7 @@ class ContactLog {
 
   /// An encounter on the present stretch.
   struct Visit {
-    Place place;
+    ContactPlace place;
     bool reports_near = false;
     Contact contact;  ///< Without times and lines.
     Encounter encounter;
@@ -76,7 +76,7 @@ class ContactLog {
 
   static constexpr std::size_t kMaxContacts = 10'000;
 
-  std::map<Place, Episode> episodes_;
+  std::map<ContactPlace, Episode> episodes_;
   StretchPlace at_;            ///< The present stretch.
   std::vector<Visit> visits_;  ///< Encounters on it.
   std::vector<Contact> contacts_;
