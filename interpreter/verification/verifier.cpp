@@ -61,7 +61,7 @@ void Verifier::take(const simulation::TimedEvent& event) {
 MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool) {
   const auto known = scene.tools.find(tool);
   return {.bodies = known == scene.tools.end() ? nullptr : &known->second,
-          .name = running::tool_name(tool),
+          .name = tool == execution::ToolCode() ? std::string() : running::tool_name(tool),
           .length = machine.tool_length(tool)};
 }
 

@@ -418,7 +418,8 @@ std::vector<verification::Contact> verified_contacts(const std::filesystem::path
   options.setup = configuration.machine.setup;
   auto contacts =
       verification::verified_run(text_of_file(file), options, configuration.machine.timed, scene.get()).contacts;
-  std::erase_if(contacts, [](const verification::Contact& contact) { return contact.is_near_miss(); });
+  std::erase_if(contacts,
+                [](const verification::Contact& contact) { return contact.is_near_miss() || contact.is_of_material; });
   return contacts;
 }
 

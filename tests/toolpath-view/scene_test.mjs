@@ -245,7 +245,7 @@ test('bodies without a name are called what they are', async () => {
   await page.keyboard.press('Shift+F');
   await page.locator('#measure').click();
   await drawn(page);
-  await page.locator('#stage').click({ position: await project(page, [-50, 240, -60]) });
+  await page.locator('#stage').click({ position: await project(page, [-50, -60, -60]) });
   assert.match(await page.locator('#measurement').textContent(), /1: corner of the spoilboard/);
   await page.context().close();
 });
