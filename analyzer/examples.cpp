@@ -166,7 +166,20 @@ std::vector<simulation::RunFinding> example_run(std::string_view program, Diagno
   return selection::verified_on_paths(program, options, machine, &scene).outcome.findings;
 }
 
+/// A stock whose resolution is too fine takes a setup of its own.
+static Example example_of_fine_stock(Cause cause) {
+  verification::Scene scene = example_of_material(cause.id);
+  scene.resolution = 1e-4;
+  const std::string program = "M06 T101001\nM02\n";
+  for (const simulation::RunFinding& found :
+       selection::verified_on_paths(program, {}, simulation::TimedMachine(), &scene).outcome.findings)
+    if (found.finding.has(cause)) return {.line = "M06 T101001", .finding = found.finding};
+  return {};
+}
+
 static std::optional<Example> example_of_run(Cause cause) {
+  if (cause.id == "not-verified"_diag && cause.number == "not-verified/resolution-too-fine"_cause.number)
+    return example_of_fine_stock(cause);
   const std::string program = program_of(cause);
   syntax::LineFinder lines(program);
   for (const simulation::RunFinding& found : example_run(program, cause.id))

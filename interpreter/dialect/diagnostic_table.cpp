@@ -1400,8 +1400,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "cui questo movimento non incontra nulla. Se alla macchina la strada è libera, il grezzo (stock) in "
                 "isocnc.json è più grande di quello vero o sta altrove, oppure qualcosa è già stato tagliato fuori da "
                 "questo programma."},
-     .wrong = "M06 T101001\nS12000 M03\nG00 X250 Y150 Z50\nZ5\n[!X500!]\nZ50\nM02\n",
-     .right = "M06 T101001\nS12000 M03\nG00 X250 Y150 Z50\nZ41\nX500\nZ50\nM02\n"},
+     .wrong = "M06 T101001\nS12000 M03\nG00 X250 Y150 Z50\nZ5\n[!X500!]\nZ50\nM05\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG00 X250 Y150 Z50\nZ41\nX500\nZ50\nM05\nM02\n"},
     {.code = "E151",
      .name = "holder-in-material",
      .severity = Severity::Error,
@@ -1421,8 +1421,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
               "Ciò che non taglia incontra ciò che resta del grezzo: il gambo, il portautensile o il naso del "
               "mandrino. Il messaggio dà il punto più profondo e la Z con cui questo movimento non avrebbe incontrato "
               "nulla. Andare meno a fondo, montare un utensile più lungo, o fare prima spazio al portautensile."},
-     .wrong = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\n[!G01 Z-25!] F1000\nG00 Z50\nM02\n",
-     .right = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z-15 F1000\nG00 Z50\nM02\n"},
+     .wrong = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\n[!G01 Z-25!] F1000\nG00 Z50\nM05\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z-15 F1000\nG00 Z50\nM05\nM02\n"},
     {.code = "E152",
      .name = "hits-fixture",
      .severity = Severity::Error,
@@ -1510,7 +1510,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "un cambio utensile lo ha fermato. Avviarlo prima del primo taglio. W102, che chiede il mandrino prima "
                 "di ogni lavoro, non viene segnalata insieme a questa."},
      .wrong = "M06 T101001\nG00 X350 Y150 Z50\n[!G01 Z35!] F1000\nG00 Z50\nM02\n",
-     .right = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z35 F1000\nG00 Z50\nM02\n"},
+     .right = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z35 F1000\nG00 Z50\nM05\nM02\n"},
     {.code = "E160",
      .name = "joint-travel",
      .severity = Severity::Error,
@@ -2339,8 +2339,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "del programma. Può mancare una passata, o l'utensile essere troppo grande per uno spigolo. Ciò che si "
                 "è staccato dal pezzo non conta. Falso allarme se un altro programma finisce il pezzo, o se i "
                 "testimoni sono lasciati apposta."},
-     .wrong = "M06 T101002\nS12000 M03\nG00 X200 Y120 Z50\nG01 Z30 F1000\n[!X500!]\nG00 Z50\nM02\n",
-     .right = "M06 T101002\nS12000 M03\nG00 X200 Y150 Z50\nG01 Z30 F1000\nX500\nG00 Z50\nM02\n"},
+     .wrong = "M06 T101002\nS12000 M03\nG00 X200 Y120 Z50\nG01 Z30 F1000\n[!X500!]\nG00 Z50\nM05\nM02\n",
+     .right = "M06 T101002\nS12000 M03\nG00 X200 Y150 Z50\nG01 Z30 F1000\nX500\nG00 Z50\nM05\nM02\n"},
     {.code = "W157",
      .name = "cut-too-deep",
      .severity = Severity::Warning,
@@ -2357,7 +2357,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                                    "start; its edge is {limit} mm long, and the shank rubs",
                              .it = "{who} è a {depth} mm di profondità nel materiale in X{x} Y{y} Z{z}, {time} s dopo "
                                    "l'avvio; il tagliente è lungo {limit} mm, e il gambo striscia"},
-                 .wrong = "M06 T101004\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z30 F1000\nX400\n[!Z12!]\nG00 Z50\nM02\n"}},
+                 .wrong =
+                     "M06 T101004\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z30 F1000\nX400\n[!Z12!]\nG00 Z50\nM05\nM02\n"}},
      .explanation =
          {.en = "machine.tools of isocnc.json says how much the tool may cut at once (maxDepth) and how long its edge "
                 "is (cutLength). Where more is cut at once the tool may break; where a wall stands beside the shank, "
@@ -2367,8 +2368,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "è lungo il suo tagliente (cutLength). Asportando di più l'utensile si può rompere; dove una parete "
                 "sta accanto al gambo, sopra il tagliente, il gambo striscia e brucia. Fare più passate, o usare un "
                 "utensile col tagliente più lungo o il gambo più sottile."},
-     .wrong = "M06 T101003\nS12000 M03\nG00 X350 Y150 Z50\n[!G01 Z20!] F1000\nG00 Z50\nM02\n",
-     .right = "M06 T101003\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z32 F1000\nG00 Z50\nM02\n"},
+     .wrong = "M06 T101003\nS12000 M03\nG00 X350 Y150 Z50\n[!G01 Z20!] F1000\nG00 Z50\nM05\nM02\n",
+     .right = "M06 T101003\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z32 F1000\nG00 Z50\nM05\nM02\n"},
     {.code = "W159",
      .name = "cuts-nothing",
      .severity = Severity::Info,
@@ -2386,8 +2387,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
           .it = "Si perde tempo dove l'utensile va in lavoro nell'aria: una passata ripetuta, un grezzo più piccolo di "
                 "quello pensato, un avvicinamento da troppo lontano. Fino a 50 mm non si segnala. Disattivata di "
                 "norma: le passate di finitura su un contorno già pulito non incontrano nulla, e sono volute."},
-     .wrong = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z60\n[!G01 X500!] F1000\nG00 Z70\nM02\n",
-     .right = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z60\nG00 X500\nZ70\nM02\n"},
+     .wrong = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z60\n[!G01 X500!] F1000\nG00 Z70\nM05\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z60\nG00 X500\nZ70\nM05\nM02\n"},
     {.code = "W161",
      .name = "loose-piece",
      .severity = Severity::Warning,
@@ -2408,8 +2409,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
               "dell'attrezzaggio, né poggia sul suo piano martire: l'utensile può prenderlo e scagliarlo. Lasciare "
               "dei testimoni, trattenere il pezzo, o ridurlo in trucioli. Falso allarme se alla macchina lo trattiene "
               "qualcosa che l'attrezzaggio non descrive."},
-     .wrong = "M06 T101001\nS12000 M03\nG00 X315 Y120 Z50\nG01 Z-1 F1000\nX385\nY180\nX315\n[!Y120!]\nG00 Z50\nM02\n",
-     .right = "M06 T101001\nS12000 M03\nG00 X315 Y120 Z50\nG01 Z-1 F1000\nX385\nY180\nX315\nY160\nG00 Z50\nM02\n"},
+     .wrong =
+         "M06 T101001\nS12000 M03\nG00 X315 Y120 Z50\nG01 Z-1 F1000\nX385\nY180\nX315\n[!Y120!]\nG00 Z50\nM05\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG00 X315 Y120 Z50\nG01 Z-1 F1000\nX385\nY180\nX315\nY160\nG00 Z50\nM05\nM02\n"},
     {.code = "W162",
      .name = "not-verified",
      .severity = Severity::Info,

@@ -65,6 +65,7 @@ static void read_scene(Part& part, const std::string& key, std::istringstream& w
   static const std::map<std::string, BodyRole> kRoles = {{"fixture", BodyRole::Fixture},
                                                          {"spoilboard", BodyRole::Spoilboard},
                                                          {"target", BodyRole::Target},
+                                                         {"stock", BodyRole::Stock},
                                                          {"machine", BodyRole::Machine}};
   if (!part.scene) part.scene.emplace();
   std::string name;
@@ -87,7 +88,15 @@ static void read_scene(Part& part, const std::string& key, std::istringstream& w
     part.machine.tool_lengths[code] = sizes["length"];
     verification::ToolBodies& tool = part.scene->tools[code];
     tool.length = sizes["length"];
-    tool.cutter = body_of(solids::flat_body(sizes["radius"], sizes["length"]));
+    // `edge`: where a shank as thick begins; `holder`: where a holder of diameter 50 does.
+    const double reach = sizes.contains("holder") ? sizes["holder"] : sizes["length"];
+    const double edge = sizes.contains("edge") ? sizes["edge"] : reach;
+    tool.cutter = body_of(solids::flat_body(sizes["radius"], edge));
+    const solids::FormPoint shank[] = {{edge, sizes["radius"]}, {reach, sizes["radius"]}};
+    if (edge < reach) tool.shank = body_of(solids::form_body(shank));
+    const solids::StackRow holder{.height = sizes["length"] - reach, .lower_diameter = 50, .upper_diameter = 50};
+    if (reach < sizes["length"]) tool.holder = body_of(solids::stacked_body({&holder, 1}, reach));
+    if (sizes.contains("max-depth")) tool.max_depth = sizes["max-depth"];
   } else if (key == "nose") {
     words >> value;
     const solids::StackRow row{.height = 100, .lower_diameter = value, .upper_diameter = value};
