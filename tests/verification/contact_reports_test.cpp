@@ -54,8 +54,7 @@ TEST(ContactReports, BodiesOfTheMachineThatTouchAtTheStartAreNotCompared) {
                     .ends_with("; not compared: gantry and rails, which touch at the start"));
     EXPECT_TRUE(in_words(*run.certificate, Language::Italian)
                     .ends_with("; non confrontati: gantry e rails, che all'inizio si toccano"));
-    EXPECT_EQ(to_json(run, Language::English)["certificate"]["notCompared"][0],
-              "gantry and rails");
+    EXPECT_EQ(to_json(run, Language::English)["certificate"]["notCompared"][0], "gantry and rails");
   }
   const VerifiedRun apart = run_at_gap(0.025);
   EXPECT_TRUE(apart.contacts.empty());
