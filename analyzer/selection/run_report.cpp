@@ -56,10 +56,11 @@ static bool has_come_to(const simulation::TakenPath& run, const LocatedFinding& 
 
 Report without_tips(Report report, const simulation::RunOutcome& run, const Selection& selection) {
   // Where the spindle stands in the material, E158 says it better than W102 on the first feed.
-  const bool has_cut_standing = selection.shows("cuts-with-spindle-stopped"_diag) &&
-                                std::any_of(run.findings.begin(), run.findings.end(), [](const auto& each) {
-                                  return each.finding.id == "cuts-with-spindle-stopped"_diag;
-                                });
+  const bool has_cut_standing =
+      selection.shows("cuts-with-spindle-stopped"_diag) &&
+      std::any_of(run.findings.begin(), run.findings.end(), [](const simulation::RunFinding& each) {
+        return each.finding.id == "cuts-with-spindle-stopped"_diag;
+      });
   const auto is_judged_by_runs = [&](dialect::DiagnosticId id) {
     if (id == "travel-exceeded"_diag) return selection.shows("joint-travel"_diag);
     return id == "spindle-stopped-feed"_diag && has_cut_standing;

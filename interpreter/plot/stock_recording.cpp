@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace isocnc::plot {
@@ -164,8 +165,12 @@ void StockRecording::put_picture(const std::vector<Material>& dexels) {
 }
 
 bool StockRecording::is_same(const DexelChange& a, const DexelChange& b) const {
-  return a.count == b.count &&
-         std::equal(heights_.begin() + a.first, heights_.begin() + a.first + 2 * a.count, heights_.begin() + b.first);
+  const auto heights_of = [&](const DexelChange& change) {
+    return std::span(heights_).subspan(change.first, std::size_t{2} * change.count);
+  };
+  const auto one = heights_of(a);
+  const auto other = heights_of(b);
+  return std::equal(one.begin(), one.end(), other.begin(), other.end());
 }
 
 void StockRecording::put(const StockMoment& moment, double before) {

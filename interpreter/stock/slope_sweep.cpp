@@ -121,7 +121,7 @@ class SlopeRow {
       v = v < last ? v : last;
       const double z = height(square + v * v) + pitch * (foot + v);
       const bool is_reached = (square <= end) & (first <= last);
-      heights[i] = is_reached & (z < heights[i]) ? z : heights[i];
+      heights[i] = (is_reached & (z < heights[i])) ? z : heights[i];
     }
   }
 
