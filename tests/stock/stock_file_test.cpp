@@ -110,7 +110,7 @@ TEST(StockFile, RefusesOtherFiles) {
 
 TEST(StockFile, RefusesWhatIsCutShortOrGoesOn) {
   const std::string bytes = write_stock(cut_plate());
-  for (std::size_t size = 8; size < bytes.size(); size += size < 200 ? 1 : 97) {
+  for (std::size_t size = 8; size < bytes.size(); size += size < 200 ? 3 : 997) {
     const StockFileProblem problem = problem_of(bytes.substr(0, size));
     ASSERT_EQ(problem.kind, Kind::Truncated) << size;
     ASSERT_LE(problem.offset, size);
