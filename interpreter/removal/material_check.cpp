@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
 #include "interpreter/removal/left_material.h"
 #include "interpreter/removal/loose_pieces.h"
@@ -25,13 +25,13 @@ static constexpr std::size_t kMaxIncidents = 10'000;
 /// How exactly the first touch is told, as a part of its sweep.
 static constexpr int kHalvings = 16;
 
-/// What a cut may leave standing beside its body, mm: a tenth of the spacing by the pieces of curved paths, and a
-/// little for rounding.
 /// Seconds between the moments at which a watcher is asked first.
 static constexpr double kShortestMoment = 0.05;
 /// Where nothing is cut, that many of these are left out at once.
 static constexpr double kMaxMomentsApart = 10;
 
+/// What a cut may leave standing beside its body, mm: a tenth of the spacing by the pieces of curved paths, and a
+/// little for rounding.
 static double skin_of(double spacing) { return spacing / 8 + 0.002; }
 
 MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine& machine, stock::Workers workers)
@@ -131,23 +131,18 @@ void MaterialCheck::append_sweeps(const TipPath& piece, bool is_feed) {
   append_sweep(forms_->shank_with_wall(), piece, Role::ShankWall);
   append_sweep(forms_->holder(), piece, Role::Holder);
   append_sweep(forms_->holder_with_clearance(), piece, Role::HolderNear);
-  append_sweep(forms_->nose(), piece, Role::Nose, forms_->tool().length);
-  append_sweep(forms_->nose_with_clearance(), piece, Role::NoseNear, forms_->tool().length);
+  append_sweep(forms_->nose(), piece, Role::Nose);
+  append_sweep(forms_->nose_with_clearance(), piece, Role::NoseNear);
 }
 
-void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece, Role role, double height) {
+void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece, Role role) {
   if (!body) return;
-  if (height != 0) {
-    const SweepPath path = shifted_along_axis(piece.path, height);
-    if (!may_meet(*body, path)) return;
-    sweeps_.push_back({.body = body, .path = path, .purpose = SweepPurpose::Ask});
-  } else {
-    if (!may_meet(*body, piece.path)) return;
-    sweeps_.push_back({.body = body,
-                       .path = piece.path,
-                       .tag = static_cast<stock::CutTag>(waiting_.back().line),
-                       .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Ask});
-  }
+  SweepPath path = placed(piece.path, role);
+  if (!may_meet(*body, path)) return;
+  sweeps_.push_back({.body = body,
+                     .path = std::move(path),
+                     .tag = static_cast<stock::CutTag>(waiting_.back().line),
+                     .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Ask});
   uses_.push_back({static_cast<std::uint32_t>(waiting_.size() - 1), role, piece.from, piece.to});
 }
 
@@ -161,34 +156,10 @@ bool MaterialCheck::may_meet(const RevolvedBody& body, const SweepPath& path) co
     const double bulge = std::abs(body.middle()) * (1 - turning->from.axis.dot(turning->to.axis));
     return std::min(middle(turning->from), middle(turning->to)) - bulge - body.sphere_radius() < top;
   }
-  const auto* const straight = std::get_if<stock::StraightPath>(&path);
-  const Vec3& axis = straight ? straight->from.axis : std::get<stock::HelixPath>(path).axis;
+  const Vec3 axis = axis_of(path);
   const double lowest = lowest_along(path, up);
   if (axis.z() == 1) return lowest + body.bottom() < top;
   return lowest + body.middle() * axis.z() - body.sphere_radius() < top;
-}
-
-const RevolvedBody* MaterialCheck::body_of(Role role) const {
-  switch (role) {
-    case Role::Cut:
-      return forms_->cutter();
-    case Role::RapidCutter:
-    case Role::StandingCutter:
-      return forms_->passing_cutter();
-    case Role::Shank:
-      return forms_->shank();
-    case Role::ShankWall:
-      return forms_->shank_with_wall();
-    case Role::Holder:
-      return forms_->holder();
-    case Role::HolderNear:
-      return forms_->holder_with_clearance();
-    case Role::Nose:
-      return forms_->nose();
-    case Role::NoseNear:
-      return forms_->nose_with_clearance();
-  }
-  return nullptr;
 }
 
 const RevolvedBody* MaterialCheck::whole_body(ToolPart part) const {
@@ -238,7 +209,7 @@ static double width_of_cut(double volume, double depth, double length, double di
   if (!(depth > 0)) return 0;
   const double area = volume / depth;
   // Of a plunge, the hole's diameter.
-  if (length < diameter / 20) return std::min(diameter, 2 * std::sqrt(area / 3.141592653589793));
+  if (length < diameter / 20) return std::min(diameter, 2 * std::sqrt(area / std::numbers::pi));
   return std::min(diameter, area / length);
 }
 
@@ -266,7 +237,7 @@ static Removed removed_by(const SweepOutcome& outcome, const SweepPath& path, do
   removed.width = std::min(diameter, outcome.length * std::sqrt(1 - steepness * steepness));
   // Slivers, as an earlier cut has left them, have no depth.
   if (removed.width < diameter / 20) return {.volume = outcome.volume};
-  const double area = is_plunge ? removed.width * removed.width * 3.141592653589793 / 4 : removed.width * length;
+  const double area = is_plunge ? removed.width * removed.width * std::numbers::pi / 4 : removed.width * length;
   removed.depth = area > 0 ? outcome.volume / area : 0;
   return removed;
 }
@@ -411,15 +382,15 @@ static SweepOutcome ask(const Stock& stock, const RevolvedBody& body, const Swee
 
 void MaterialCheck::find_first_touch(OpenIncident& episode, const Stock& before) {
   const SweepUse& use = uses_[*episode.first_sweep];
-  const RevolvedBody* const body = body_of(use.role);
-  if (!body || use.role == Role::Cut) return;
+  if (use.role == Role::Cut) return;
+  const RevolvedBody& body = *sweeps_[*episode.first_sweep].body;
   const motion::Stretch& stretch = waiting_[use.stretch].stretch;
   const auto meets_until = [&](double s) {
     std::vector<TipPath> pieces;
     append_tip_paths(machine_.motion.kinematics, stretch.path, use.from, s, forms_->reach(), stock_.spacing() / 40,
                      pieces);
     return std::any_of(pieces.begin(), pieces.end(), [&](const TipPath& piece) {
-      return ask(before, *body, placed(moved(piece.path, -workpiece_.origin), use.role)).meets();
+      return ask(before, body, placed(moved(piece.path, -workpiece_.origin), use.role)).meets();
     });
   };
   double free = use.from;
@@ -496,7 +467,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   const bool is_hit = incident.kind == IncidentKind::RapidInMaterial || incident.kind == IncidentKind::BodyInMaterial;
   if (!is_hit) return;
   incident.enough.reset();
-  const std::optional<double> rise = enough_rise(before, *body_of(use.role), path, up);
+  const std::optional<double> rise = enough_rise(before, *sweeps_[index].body, path, up);
   if (!rise) return;
   // The dexels do not measure along a tool that lies, and the material ends up to half a spacing beside them.
   const double aside = stock_.spacing() / 2 * (1 - std::abs(up.z()));

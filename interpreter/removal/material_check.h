@@ -94,7 +94,7 @@ class MaterialCheck {
 
   void show_moments(const motion::Stretch& stretch);
   void append_sweeps(const TipPath& piece, bool is_feed);
-  void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role, double height = 0);
+  void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role);
   bool may_meet(const solids::RevolvedBody& body, const stock::SweepPath& path) const;
   void cut_waiting();
   void account(std::size_t sweep, const stock::SweepOutcome& outcome);
@@ -111,7 +111,6 @@ class MaterialCheck {
   void close(OpenIncident& episode);
   void close_all();
   void keep(Incident incident);
-  const solids::RevolvedBody* body_of(Role role) const;
   const solids::RevolvedBody* whole_body(ToolPart part) const;
   geometry::Vec3 in_machine(const geometry::Vec3& point) const { return point + workpiece_.origin; }
 

@@ -163,8 +163,7 @@ stock::SweepPath shifted_along_axis(const stock::SweepPath& path, double height)
     shifted.to.origin += height * shifted.to.axis;
     return shifted;
   }
-  const auto* const straight = std::get_if<stock::StraightPath>(&path);
-  return moved(path, height * (straight ? straight->from.axis : std::get<stock::HelixPath>(path).axis));
+  return moved(path, height * axis_of(path));
 }
 
 stock::SweepPath moved(stock::SweepPath path, const Vec3& shift) {
