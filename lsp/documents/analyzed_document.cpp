@@ -105,12 +105,25 @@ void AnalyzedDocument::take_run(simulation::RunOutcome outcome) {
   report_.reset();
 }
 
+/// Of lines with cuts, the first that is not above `line`.
+static auto first_removed_from(std::size_t line, const std::vector<simulation::RemovedOnLine>& removed) {
+  return std::partition_point(removed.begin(), removed.end(),
+                              [&](const simulation::RemovedOnLine& each) { return each.line < line; });
+}
+
 std::optional<simulation::RemovedOnLine> AnalyzedDocument::removed_on(std::size_t line) const {
   if (!run_ || !run_->is_current()) return std::nullopt;
+  const auto found = first_removed_from(line, run_->outcome().removed);
+  return found != run_->outcome().removed.end() && found->line == line ? std::optional(*found) : std::nullopt;
+}
+
+std::optional<double> AnalyzedDocument::removed_between(std::size_t first, std::size_t end) const {
+  if (!run_ || !run_->is_current() || !run_->outcome().has_stock) return std::nullopt;
   const std::vector<simulation::RemovedOnLine>& removed = run_->outcome().removed;
-  const auto found = std::partition_point(removed.begin(), removed.end(),
-                                          [&](const simulation::RemovedOnLine& each) { return each.line < line; });
-  return found != removed.end() && found->line == line ? std::optional(*found) : std::nullopt;
+  double volume = 0;
+  for (auto each = first_removed_from(first, removed); each != removed.end() && each->line < end; ++each)
+    volume += each->volume;
+  return volume;
 }
 
 void AnalyzedDocument::drop_run() {

@@ -66,6 +66,7 @@ class AnalyzedDocument {
   /// What the last verification has shown, as far as it still applies; null if there was none.
   const KeptRun* run() const { return run_ ? &*run_ : nullptr; }
   std::optional<simulation::RemovedOnLine> removed_on(std::size_t line) const;
+  std::optional<double> removed_between(std::size_t first, std::size_t end) const;
   /// Takes what a verification of the present revision has shown. From now on it is a part of the report.
   void take_run(simulation::RunOutcome outcome);
   void drop_run();

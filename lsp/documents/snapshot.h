@@ -47,6 +47,10 @@ class Snapshot {
   bool is_verified() const { return document_.run() && document_.run()->is_current(); }
   /// What the motions of a line have removed from the blank, if the verification of the present text has cut one.
   std::optional<simulation::RemovedOnLine> removed_on(std::size_t line) const { return document_.removed_on(line); }
+  /// The volume in mm^3 that the motions of the lines from `first` to before `end` have removed, in the same way.
+  std::optional<double> removed_between(std::size_t first, std::size_t end) const {
+    return document_.removed_between(first, end);
+  }
   /// The findings of the report on a line.
   std::vector<check::LocatedFinding> findings_on(std::size_t line) const { return document_.findings_on(line); }
   const check::Analysis& analysis() const { return document_.analysis(); }

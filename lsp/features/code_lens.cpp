@@ -1,13 +1,15 @@
 #include <algorithm>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "interpreter/dialect/format.h"
 #include "lsp/features/feature.h"
 #include "lsp/queries/section_times.h"
 
-/// Code lenses above each tool section: its duration and path length, and, in editors that support it, commands to run
-/// or debug the program from there.
+/// Code lenses above each tool section: its duration and path length, the volume that it removes from the blank, and,
+/// in editors that support it, commands to run or debug the program from there.
 namespace isocnc::features {
 
 using dialect::Text;
@@ -15,9 +17,22 @@ using documents::LandmarkKind;
 
 namespace {
 
-std::string describe(const queries::TimedSection& section, dialect::Language language) {
+/// `removed`: by the last verification, mm^3.
+std::string describe(const queries::TimedSection& section, const std::optional<double>& removed,
+                     dialect::Language language) {
   static constexpr Text kTimeAndPath = {"{}, path {:.1f} m", "{}, percorso {:.1f} m"};
-  return dialect::format(kTimeAndPath, language, queries::clock_text(section.seconds), section.mm / 1000);
+  static constexpr Text kRemoves = {", removes {:.1f} cm3", ", asporta {:.1f} cm3"};
+  std::string title = dialect::format(kTimeAndPath, language, queries::clock_text(section.seconds), section.mm / 1000);
+  if (removed) title += dialect::format(kRemoves, language, *removed / 1000);
+  return title;
+}
+
+/// The volume that the lines from a tool change to the next one remove, if a verification of the present text knows it.
+std::optional<double> removed_from(const Snapshot& snapshot, std::size_t line) {
+  std::size_t end = std::numeric_limits<std::size_t>::max();
+  for (const documents::Landmark& change : snapshot.index().landmarks(LandmarkKind::ToolChange))
+    if (change.line > line) end = std::min<std::size_t>(end, change.line);
+  return snapshot.removed_between(line, end);
 }
 
 /// Whether the editor knows a command of this name: it lists its commands in `experimental.commands.commands`.
@@ -66,16 +81,22 @@ BackgroundRequest resolve_lens(const Snapshot& snapshot, const LensResolveParams
   const auto times = queries::SectionTimes::of(snapshot);
   const auto known = times->known(snapshot);
   const auto program = known ? nullptr : std::make_shared<queries::TimedProgram>(snapshot, 0);
-  return [times, known, program, lens = params.lens, line = data.at("line").get<std::size_t>(),
+  const auto line = data.at("line").get<std::size_t>();
+  return [times, known, program, lens = params.lens, line, removed = removed_from(snapshot, line),
           language = snapshot.language()](const std::function<bool()>& stop) mutable {
     static constexpr Text kNotRun = {"not run", "non eseguita"};
     const auto sections = known ? known : times->time(*program, stop);
     const auto section = sections->find(line);
     const std::string title =
-        section == sections->end() ? std::string(kNotRun.in(language)) : describe(section->second, language);
+        section == sections->end() ? std::string(kNotRun.in(language)) : describe(section->second, removed, language);
     lens["command"] = {{"title", title}, {"command", ""}};
     return rpc::write(lens);
   };
+}
+
+/// Whether lenses that have been shown may lack a volume.
+bool knows_volumes(const Snapshot& snapshot, const Notify&) {
+  return !snapshot.index().landmarks(LandmarkKind::ToolChange).empty() && snapshot.removed_between(0, 1).has_value();
 }
 
 Json code_lens_capabilities(const Client&) { return {{"codeLensProvider", {{"resolveProvider", true}}}}; }
@@ -85,6 +106,7 @@ Json code_lens_capabilities(const Client&) { return {{"codeLensProvider", {{"res
 extern const Feature code_lens = {
     .capabilities = code_lens_capabilities,
     .methods = {on<&answer_code_lens>("textDocument/codeLens"), in_background<&resolve_lens>("codeLens/resolve")},
+    .verified = knows_volumes,
     .refresh = Refresh{"workspace/codeLens/refresh", "/workspace/codeLens/refreshSupport"}};
 
 }  // namespace isocnc::features
