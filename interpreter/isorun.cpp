@@ -53,6 +53,7 @@ struct RunCommandOptions {
   std::string plot;
   std::string stock_out;
   std::optional<std::string> resolution;
+  std::optional<std::string> window;
   bool json = false;
   bool verify = false;
   std::string language;
@@ -134,6 +135,10 @@ constexpr Text kWrongStock{"--stock-out writes a file whose name ends in .stl or
                            "--stock-out scrive un file il cui nome finisce in .stl o .stock, non come {}"};
 constexpr Text kWrongResolution{"--resolution takes a plain number of mm above 0, such as 0.5, not {}",
                                 "--resolution vuole un numero semplice in mm maggiore di 0, come 0.5, non {}"};
+constexpr Text kWrongWindow{"--window takes two corners in mm, the lower one first, such as 0,0,250,250, not {}",
+                            "--window vuole due spigoli in mm, prima quello inferiore, come 0,0,250,250, non {}"};
+constexpr Text kEmptyWindow{"in the window {} there is nothing of the stock, which reaches from X{} Y{} to X{} Y{}",
+                            "nella finestra {} non c'è nulla del grezzo, che va da X{} Y{} a X{} Y{}"};
 constexpr Text kTooFine{
     "a resolution of {} mm takes more memory than there is for the stock; {:.2g} mm would fit",
     "una risoluzione di {} mm occupa più memoria di quella prevista per il grezzo; con {:.2g} mm ci "
@@ -165,6 +170,21 @@ std::optional<running::RunOptions> read_run_options(const RunCommandOptions& opt
   return run;
 }
 
+/// The rectangle in `X0,Y0,X1,Y1`.
+std::optional<stock::Window> read_window(std::string_view text) {
+  std::vector<double> numbers;
+  for (bool is_last = false; !is_last;) {
+    const std::size_t comma = text.find(',');
+    is_last = comma == std::string_view::npos;
+    const std::optional<double> number = read_decimal(text.substr(0, comma));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    if (!is_last) text.remove_prefix(comma + 1);
+  }
+  if (numbers.size() != 4 || !(numbers[0] < numbers[2]) || !(numbers[1] < numbers[3])) return std::nullopt;
+  return stock::Window(geometry::Vec2(numbers[0], numbers[1]), geometry::Vec2(numbers[2], numbers[3]));
+}
+
 /// The outputs and their destinations; none after an error message.
 std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   constexpr double kShortest = 1e-4;
@@ -186,6 +206,10 @@ std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   if (options.resolution) {
     outputs.material.resolution = read_decimal(*options.resolution);
     if (!(outputs.material.resolution.value_or(0) > 0)) return refuse(kWrongResolution, *options.resolution, options);
+  }
+  if (options.window) {
+    outputs.material.window = read_window(*options.window);
+    if (!outputs.material.window) return refuse(kWrongWindow, *options.window, options);
   }
   // Cutting takes longer than the rest, and nothing else shows it.
   outputs.material.is_cut = options.verify || !options.stock_out.empty() || format == plot::PlotFormat::Html;
@@ -444,17 +468,25 @@ plot::PlotSubject plot_subject(std::string_view program, const configuration::Ma
 
 /// Whether there is a stock for the options that take one, which fits the memory; false after an error message.
 bool can_cut(const RunCommandOptions& options, const RunOutputs& outputs) {
-  if (options.stock_out.empty() && !options.resolution) return true;
+  if (options.stock_out.empty() && !options.resolution && !options.window) return true;
   std::optional<removal::Workpiece> workpiece;
-  if (outputs.subject.scene)
-    workpiece = verification::workpiece_of(*outputs.subject.scene, {}, {.resolution = outputs.material.resolution});
+  const verification::MaterialOptions material{.resolution = outputs.material.resolution,
+                                               .window = outputs.material.window};
+  if (outputs.subject.scene) workpiece = verification::workpiece_of(*outputs.subject.scene, {}, material);
+  const Language language = options.reader_language();
   if (!workpiece) {
-    const std::string_view option = options.resolution ? "--resolution" : "--stock-out";
-    complain(dialect::format(kNoStock, options.reader_language(), option, options.shown_file()));
+    const std::string_view option = options.resolution ? "--resolution" : options.window ? "--window" : "--stock-out";
+    complain(dialect::format(kNoStock, language, option, options.shown_file()));
+    return false;
+  }
+  if (options.window && stock::bounds_of(workpiece->blank, workpiece->window).isEmpty()) {
+    const solids::BoundingBox blank = stock::bounds_of(workpiece->blank);
+    complain(dialect::format(kEmptyWindow, language, *options.window, blank.min().x(), blank.min().y(), blank.max().x(),
+                             blank.max().y()));
     return false;
   }
   const std::optional<double> fitting = verification::coarser_spacing(*workpiece);
-  if (fitting) complain(dialect::format(kTooFine, options.reader_language(), workpiece->spacing, *fitting));
+  if (fitting) complain(dialect::format(kTooFine, language, workpiece->spacing, *fitting));
   return !fitting;
 }
 
@@ -556,6 +588,9 @@ ExitStatus run_main(int argc, char** argv) {
   program.add_option("--resolution", options.resolution, {"MM", "MM"},
                      {"How fine the blank is cut; else as the setup says",
                       "Quanto è fine il taglio del grezzo; altrimenti\ncome dice l'attrezzaggio"});
+  program.add_option("--window", options.window, {"X0,Y0,X1,Y1", "X0,Y0,X1,Y1"},
+                     {"Cut this part of the blank alone, in the setup's frame",
+                      "Taglia solo questa parte del grezzo, nel\nriferimento dell'attrezzaggio"});
   program.add_option("--vgpl", options.vgpl, {"VALUE", "VALORE"},
                      {"Value of VGPL (else 0)", "Valore di VGPL (altrimenti 0)"});
   program

@@ -150,11 +150,11 @@ void DocumentWorker::report_described(const std::filesystem::path& shown, const 
                                                                client.language(settings.configuration->language))));
 }
 
-/// A run has read the meshes around the program, and knows what is wrong with them.
-void DocumentWorker::report_meshes(const Client& client) {
+/// A run has read the files with shapes around the program, and knows what is wrong with them.
+void DocumentWorker::report_shapes(const Client& client) {
   std::set<std::string> files;
   for (const configuration::SurroundingsMistake& each : document_.settings().scenes->all_mistakes())
-    if (each.is_of_mesh) files.insert(each.file);
+    if (each.is_of_shape) files.insert(each.file);
   for (const std::string& file : files) report_described(file, client);
 }
 
@@ -199,7 +199,7 @@ void DocumentWorker::take_verification(const VerificationResult& result, const C
   });
   document_.take_run(std::move(*result.outcome));
   report_verification(client);
-  report_meshes(client);
+  report_shapes(client);
 }
 
 void DocumentWorker::report_verification(const Client& client) {

@@ -62,7 +62,7 @@ class DocumentWorker {
   bool shows_progress_to(const protocol::Client& client) const;
   void report_configuration(const protocol::Client& client);
   void report_described(const std::filesystem::path& shown, const protocol::Client& client);
-  void report_meshes(const protocol::Client& client);
+  void report_shapes(const protocol::Client& client);
   void report_as_configuration(const protocol::Client& client);
   void log(const std::exception& error);
 

@@ -6,8 +6,8 @@
 
 #include "analyzer/input/settling.h"
 #include "interpreter/configuration/configurations.h"
-#include "interpreter/configuration/meshes.h"
 #include "interpreter/configuration/scenes.h"
+#include "interpreter/configuration/shape_files.h"
 #include "lsp/protocol/uri.h"
 
 namespace isocnc::lsp {
@@ -45,8 +45,8 @@ void PostedPrograms::watch(const ClosedPrograms::Folders& folders, bool watches_
       extensions.insert(settings.configuration->lint.extensions.begin(), settings.configuration->lint.extensions.end());
     }
   std::vector<std::string> patterns = {fmt::format("**/{}", configuration::kFileName),
-                                       fmt::format("**/*{}", configuration::kSetupExtension),
-                                       pattern_of(configuration::kMeshExtension)};
+                                       fmt::format("**/*{}", configuration::kSetupExtension)};
+  for (const std::string_view extension : configuration::kShapeExtensions) patterns.push_back(pattern_of(extension));
   for (const std::string& extension : extensions) patterns.push_back(pattern_of(extension));
   if (patterns == watched_) return;
   if (!watched_.empty())

@@ -239,7 +239,7 @@ void Server::look_at_changed_files(const rpc::CallPointer& call) {
   std::vector<std::string> files;
   for (const Json& change : call->params().at("changes")) files.push_back(change.at("uri"));
   const auto describes_programs = [](const std::string& uri) {
-    return protocol::names_configuration(uri) || protocol::names_mesh(uri);
+    return protocol::names_configuration(uri) || protocol::names_shape(uri);
   };
   if (std::erase_if(files, describes_programs) > 0) reconfigure_all();
   posted_programs_.note_changes(files);

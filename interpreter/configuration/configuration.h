@@ -32,8 +32,8 @@ struct NamedRows {
   NumberRows rows;
 };
 
-/// An STL file.
-struct MeshFile {
+/// A file that holds a shape: an STL file, or a stock.
+struct ShapeFile {
   std::string name;        ///< Path from the folder of the file that names it.
   std::string key;         ///< Path of the key that names it, such as `setups[0].target.mesh`.
   DescriptionPlace place;  ///< Of its value.
@@ -50,15 +50,24 @@ struct DescribedCylinder {
 struct DescribedShape {
   std::optional<NumberRows> box;  ///< Two corners: the lower one, the upper one.
   std::optional<DescribedCylinder> cylinder;
-  std::optional<MeshFile> mesh;
+  std::optional<ShapeFile> mesh;
   std::optional<geometry::Vec3> at;  ///< Shift of the shape.
 };
 
-/// A fixture, a stock, or a body of the machine.
+/// A fixture, or a body of the machine.
 struct DescribedBody {
   std::string name;
   std::string on = "machine";  ///< Of a body of the machine: the part that carries it.
   DescribedShape shape;
+  DescriptionPlace place;
+};
+
+/// The blank.
+struct DescribedStock {
+  DescribedShape shape;                ///< Its `at` also shifts what an earlier setup has left.
+  std::optional<ShapeFile> from;       ///< What an earlier setup has left, instead of a shape: a file of `--stock-out`.
+  std::optional<bool> is_turned_over;  ///< Whether that lies turned over about the X axis.
+  std::optional<int> quarter_turns;    ///< How far that is turned about Z, after being turned over.
   DescriptionPlace place;
 };
 
@@ -70,7 +79,7 @@ struct DescribedSpoilboard {
 };
 
 struct DescribedTarget {
-  std::optional<MeshFile> mesh;  ///< Always set in a valid file.
+  std::optional<ShapeFile> mesh;  ///< Always set in a valid file.
   std::optional<geometry::Vec3> at;
   double tolerance = 0;
   DescriptionPlace place;
@@ -81,7 +90,7 @@ struct DescribedSetup {
   std::vector<std::string> paths;  ///< Empty for the setup of one program.
   PathPatterns patterns;           ///< Parsed form of `paths`.
   std::string frame = "workpiece";
-  std::optional<DescribedBody> stock;
+  std::optional<DescribedStock> stock;
   std::optional<DescribedSpoilboard> spoilboard;
   std::vector<DescribedBody> fixtures;
   std::optional<DescribedTarget> target;

@@ -495,16 +495,34 @@ static void add_holders(std::vector<Key>& keys) {
                   .objection = [](const Configuration& c, ElementIndex) { return stack_objection(*c.machine.nose); }});
 }
 
-static std::optional<Objection> objection_to(const DescribedShape& shape) {
+using GivenShapes = std::vector<std::pair<std::string_view, bool>>;  // By the names of their keys.
+
+static GivenShapes given_in(const DescribedShape& shape) {
+  return {{"box", shape.box.has_value()}, {"cylinder", shape.cylinder.has_value()}, {"mesh", shape.mesh.has_value()}};
+}
+
+static std::optional<Objection> objection_to(const GivenShapes& shapes, const Text& none) {
   std::string_view first;
-  for (const auto& [name, is_given] : {std::pair<std::string_view, bool>{"box", shape.box.has_value()},
-                                       {"cylinder", shape.cylinder.has_value()},
-                                       {"mesh", shape.mesh.has_value()}}) {
+  for (const auto& [name, is_given] : shapes) {
     if (is_given && !first.empty())
       return Objection{.member = name, .text = mistakes::kSecondShape, .names = {std::string(first)}};
     if (is_given) first = name;
   }
-  if (first.empty()) return Objection{.member = "", .text = mistakes::kOneShape};
+  if (first.empty()) return Objection{.member = "", .text = none};
+  return std::nullopt;
+}
+
+static std::optional<Objection> objection_to(const DescribedShape& shape) {
+  return objection_to(given_in(shape), mistakes::kOneShape);
+}
+
+static std::optional<Objection> objection_to(const DescribedStock& stock) {
+  GivenShapes shapes = given_in(stock.shape);
+  shapes.emplace_back("from", stock.from.has_value());
+  if (auto objection = objection_to(shapes, mistakes::kOneBlank)) return objection;
+  if (stock.from) return std::nullopt;
+  if (stock.is_turned_over) return Objection{.member = "turnedOver", .text = mistakes::kOnlyWithFrom};
+  if (stock.quarter_turns) return Objection{.member = "quarterTurns", .text = mistakes::kOnlyWithFrom};
   return std::nullopt;
 }
 
@@ -537,7 +555,7 @@ static void add_point_key(std::vector<Key>& keys, std::string path, const Text& 
                   .slot = std::move(slot)});
 }
 
-static void add_mesh_key(std::vector<Key>& keys, std::string path, const Text& documentation, bool is_required,
+static void add_file_key(std::vector<Key>& keys, std::string path, const Text& documentation, bool is_required,
                          std::function<ValueSlot(Configuration&, ElementIndex)> slot) {
   keys.push_back({.path = std::move(path),
                   .kind = KeyKind::Text,
@@ -596,7 +614,7 @@ static void add_shape_keys(std::vector<Key>& keys, const std::string& prefix, Sh
        .objection = [shape](const Configuration& c,
                             ElementIndex i) { return objection_to_corners(*constant_shape(shape, c, i).box); }});
   add_cylinder_keys(keys, prefix + "cylinder", shape);
-  add_mesh_key(keys, prefix + "mesh", kMeshDocumentation, false,
+  add_file_key(keys, prefix + "mesh", kMeshDocumentation, false,
                [shape](Configuration& c, ElementIndex i) -> ValueSlot { return &shape(c, i).mesh; });
   add_point_key(keys, prefix + "at", units::kMillimeters, kShiftDocumentation, false,
                 [shape](Configuration& c, ElementIndex i) -> ValueSlot { return &shape(c, i).at; });
@@ -680,7 +698,7 @@ static void add_target(std::vector<Key>& keys) {
   keys.push_back({.path = "setups[].target",
                   .documentation = {"The finished part.", "Il pezzo finito."},
                   .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].target; }});
-  add_mesh_key(keys, "setups[].target.mesh", kMeshDocumentation, true,
+  add_file_key(keys, "setups[].target.mesh", kMeshDocumentation, true,
                [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].target->mesh; });
   add_point_key(keys, "setups[].target.at", units::kMillimeters, kShiftDocumentation, false,
                 [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].target->at; });
@@ -717,6 +735,42 @@ static void add_fixtures(std::vector<Key>& keys) {
   });
 }
 
+static void add_stock(std::vector<Key>& keys) {
+  keys.push_back(
+      {.path = "setups[].stock",
+       .documentation = {"The blank: a box, a cylinder, a mesh, or what an earlier setup has left.",
+                         "Il grezzo: un box, un cylinder, una mesh, o ciò che ha lasciato un attrezzaggio precedente."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].stock; },
+       .objection = [](const Configuration& c, ElementIndex i) { return objection_to(*c.setups[i.element].stock); }});
+  add_shape_keys(keys, "setups[].stock.",
+                 [](Configuration& c, ElementIndex i) -> DescribedShape& { return c.setups[i.element].stock->shape; });
+  add_file_key(keys, "setups[].stock.from",
+               {"What an earlier setup has left: a file that `isorun --stock-out FILE.stock` has written, in the "
+                "folder of this file or below.",
+                "Ciò che ha lasciato un attrezzaggio precedente: un file scritto da `isorun --stock-out FILE.stock`, "
+                "nella cartella di questo file o più sotto."},
+               false, [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].stock->from; });
+  keys.push_back(
+      {.path = "setups[].stock.turnedOver",
+       .kind = KeyKind::Boolean,
+       .documentation = {"With `from`: it lies turned over about the X axis, so that Y and Z change their signs.",
+                         "Con `from`: è ribaltato intorno all'asse X, così che Y e Z cambiano segno."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot {
+         return &c.setups[i.element].stock->is_turned_over;
+       }});
+  keys.push_back({.path = "setups[].stock.quarterTurns",
+                  .kind = KeyKind::Integer,
+                  .range = {-3, 3},
+                  .documentation =
+                      {"With `from`: it is turned about Z by so many quarters of a turn, counterclockwise from above, "
+                       "after being turned over and before being shifted.",
+                       "Con `from`: è girato intorno a Z di tanti quarti di giro, in senso antiorario visto "
+                       "dall'alto, dopo il ribaltamento e prima dello spostamento."},
+                  .slot = [](Configuration& c, ElementIndex i) -> ValueSlot {
+                    return &c.setups[i.element].stock->quarter_turns;
+                  }});
+}
+
 static void add_setups(std::vector<Key>& keys) {
   keys.push_back({.path = "setups",
                   .kind = KeyKind::Objects,
@@ -741,14 +795,7 @@ static void add_setups(std::vector<Key>& keys) {
                                     "Di chi sono queste coordinate: della prima G92, o della macchina; senza, "
                                     "`workpiece`."},
                   .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].frame; }});
-  keys.push_back(
-      {.path = "setups[].stock",
-       .documentation = {"The blank: a box, a cylinder or a mesh.", "Il grezzo: un box, un cylinder o una mesh."},
-       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].stock; },
-       .objection = [](const Configuration& c,
-                       ElementIndex i) { return objection_to(c.setups[i.element].stock->shape); }});
-  add_shape_keys(keys, "setups[].stock.",
-                 [](Configuration& c, ElementIndex i) -> DescribedShape& { return c.setups[i.element].stock->shape; });
+  add_stock(keys);
   add_spoilboard(keys);
   add_fixtures(keys);
   add_target(keys);
@@ -970,7 +1017,7 @@ concept Element = std::same_as<T, Tool> || std::same_as<T, NamedFunction> || std
 
 template <class T>
 concept AbsentObject = std::same_as<T, Renumber> || std::same_as<T, DescribedCylinder> ||
-    std::same_as<T, DescribedBody> || std::same_as<T, DescribedSpoilboard> || std::same_as<T, DescribedTarget>;
+    std::same_as<T, DescribedStock> || std::same_as<T, DescribedSpoilboard> || std::same_as<T, DescribedTarget>;
 
 template <Element T>
 std::vector<T>* elements_in(std::vector<T>* list) {

@@ -58,15 +58,15 @@ struct ElementIndex {
 
 /// The storage of a key's value, written by the reader and read by --show-config.
 using ValueSlot =
-    std::variant<std::monostate, double*, std::optional<double>*, int*, std::optional<int>*, bool*, std::string*,
-                 std::optional<dialect::Language>*, std::vector<std::string>*,
+    std::variant<std::monostate, double*, std::optional<double>*, int*, std::optional<int>*, bool*,
+                 std::optional<bool>*, std::string*, std::optional<dialect::Language>*, std::vector<std::string>*,
                  std::vector<std::pair<std::string, std::string>>*, std::optional<geometry::Vec3>*,
-                 std::optional<NumberRows>*, std::vector<NamedRows>*, std::optional<MeshFile>*,
+                 std::optional<NumberRows>*, std::vector<NamedRows>*, std::optional<ShapeFile>*,
                  // Lists of objects.
                  std::optional<std::vector<Tool>>*, std::optional<std::vector<NamedFunction>>*,
                  std::vector<FileOverrides>*, std::vector<DescribedBody>*, std::vector<DescribedSetup>*,
                  // Objects that may be absent.
-                 std::optional<Renumber>*, std::optional<DescribedCylinder>*, std::optional<DescribedBody>*,
+                 std::optional<Renumber>*, std::optional<DescribedCylinder>*, std::optional<DescribedStock>*,
                  std::optional<DescribedSpoilboard>*, std::optional<DescribedTarget>*>;
 
 /// A mistake in an object whose keys are all valid, with the key to mark; an empty `member` marks the object itself.

@@ -48,8 +48,8 @@ namespace {
 /// Makes the bodies that one file describes.
 class BodyMaker {
  public:
-  BodyMaker(const std::filesystem::path& file, const std::filesystem::path& folder, const MeshSource& meshes)
-      : file_(file), folder_(folder), meshes_(meshes) {}
+  BodyMaker(const std::filesystem::path& file, const std::filesystem::path& folder, const ShapeSource& shapes)
+      : file_(file), folder_(folder), shapes_(shapes) {}
 
   void add(const DescribedBody& body, BodyRole role, std::vector<SceneBody>& bodies) const {
     std::optional<BodyShape> shape = shape_of(body.shape);
@@ -64,6 +64,23 @@ class BodyMaker {
   void add(const DescribedTarget& target, std::vector<SceneBody>& bodies) const {
     const DescribedShape shape{.box = {}, .cylinder = {}, .mesh = target.mesh, .at = target.at};
     add(DescribedBody{.name = {}, .shape = shape, .place = target.place}, BodyRole::Target, bodies);
+  }
+
+  void add(const DescribedStock& stock, Scene& scene) const {
+    if (!stock.from)
+      return add(DescribedBody{.name = {}, .shape = stock.shape, .place = stock.place}, BodyRole::Stock, scene.setup);
+    scene.left_stock =
+        stock::LeftStock{.stock = shapes_.stock({.shape = *stock.from, .at = {}, .file = file_, .folder = folder_}),
+                         .shift = stock.shape.at.value_or(Vec3::Zero()),
+                         .is_turned_over = stock.is_turned_over.value_or(false),
+                         .quarter_turns = stock.quarter_turns.value_or(0)};
+    if (!scene.left_stock->stock) return;
+    const solids::BoundingBox box = stock::bounds_of(*scene.left_stock);
+    scene.setup.push_back({.name = {},
+                           .role = BodyRole::Stock,
+                           .on = Link::Machine,
+                           .shape = solids::Cuboid{box.min(), box.max()},
+                           .described = described(file_, stock.place)});
   }
 
   void add(const DescribedSpoilboard& board, std::vector<SceneBody>& bodies) const {
@@ -88,18 +105,18 @@ class BodyMaker {
     if (shape.cylinder) return cylinder_of(*shape.cylinder, shift);
     if (!shape.mesh) return std::nullopt;
     std::shared_ptr<const solids::Mesh> mesh =
-        meshes_({.mesh = *shape.mesh, .at = shape.at, .file = file_, .folder = folder_});
+        shapes_.mesh({.shape = *shape.mesh, .at = shape.at, .file = file_, .folder = folder_});
     return mesh ? std::optional<BodyShape>(std::move(mesh)) : std::nullopt;
   }
 
   const std::filesystem::path& file_;
   const std::filesystem::path& folder_;
-  const MeshSource& meshes_;
+  const ShapeSource& shapes_;
 };
 
 }  // namespace
 
-static void add_machine(const MachineConfiguration& machine, const MeshSource& meshes, Scene& scene) {
+static void add_machine(const MachineConfiguration& machine, const ShapeSource& shapes, Scene& scene) {
   for (const Tool& tool : machine.tools.value_or(std::vector<Tool>())) {
     auto bodies = tool_bodies(machine, tool);
     auto* const made = std::get_if<verification::ToolBodies>(&bodies);
@@ -111,15 +128,15 @@ static void add_machine(const MachineConfiguration& machine, const MeshSource& m
     auto nose = stack_body(*machine.nose, 0);
     if (auto* const made = std::get_if<solids::RevolvedBody>(&nose)) scene.nose = std::move(*made);
   }
-  const BodyMaker maker(machine.file, machine.folder, meshes);
+  const BodyMaker maker(machine.file, machine.folder, shapes);
   for (const DescribedBody& body : machine.bodies) maker.add(body, BodyRole::Machine, scene.machine);
   scene.touching = verification::touching_at_home(scene, machine.timed);
 }
 
 Scene make_scene(const MachineConfiguration& machine, const std::optional<LocatedSetup>& located,
-                 const MeshSource& meshes) {
+                 const ShapeSource& shapes) {
   Scene scene;
-  add_machine(machine, meshes, scene);
+  add_machine(machine, shapes, scene);
   scene.name = machine.file.generic_string();
   scene.has_setup = located.has_value();
   if (!located) return scene;
@@ -128,14 +145,14 @@ Scene make_scene(const MachineConfiguration& machine, const std::optional<Locate
   scene.is_in_workpiece_frame = setup.frame == "workpiece";
   scene.clearance = setup.clearance;
   scene.resolution = setup.resolution;
-  const BodyMaker maker(located->file, located->folder, meshes);
+  const BodyMaker maker(located->file, located->folder, shapes);
   for (const DescribedBody& fixture : setup.fixtures) maker.add(fixture, BodyRole::Fixture, scene.setup);
   if (setup.spoilboard) maker.add(*setup.spoilboard, scene.setup);
   if (setup.target) {
     scene.target_tolerance = setup.target->tolerance;
     maker.add(*setup.target, scene.setup);
   }
-  if (setup.stock) maker.add(*setup.stock, BodyRole::Stock, scene.setup);
+  if (setup.stock) maker.add(*setup.stock, scene);
   return scene;
 }
 

@@ -186,6 +186,23 @@ inline constexpr dialect::Text kMeshFlat = {"{0} encloses nothing: its triangles
                                             "{0} non racchiude nulla: fra i suoi triangoli non c'è volume"};
 inline constexpr dialect::Text kMeshHuge = {"{0} has more triangles than any mesh",
                                             "{0} ha troppi triangoli per una mesh"};
+inline constexpr dialect::Text kOneBlank = {"one of box, cylinder, mesh and from is needed",
+                                            "ci vuole uno fra box, cylinder, mesh e from"};
+inline constexpr dialect::Text kOnlyWithFrom = {"this is for what an earlier setup has left: it needs from",
+                                                "questo vale per ciò che ha lasciato un attrezzaggio precedente: vuole "
+                                                "from"};
+inline constexpr dialect::Text kStockUnreadable = {
+    "{0}: {1} (isorun --stock-out writes it, from the program of the earlier setup)",
+    "{0}: {1} (lo scrive isorun --stock-out, dal programma dell'attrezzaggio precedente)"};
+inline constexpr dialect::Text kNoStock = {"{0} is no file that isorun --stock-out FILE.stock has written",
+                                           "{0} non è un file scritto da isorun --stock-out FILE.stock"};
+inline constexpr dialect::Text kStockVersion = {
+    "{0} was written by another version of isorun; write it again with --stock-out",
+    "{0} è stato scritto da un'altra versione di isorun; si riscriva con --stock-out"};
+inline constexpr dialect::Text kStockBroken = {"{0} is damaged, at byte {1}; write it again with isorun --stock-out",
+                                               "{0} è rovinato, al byte {1}; si riscriva con isorun --stock-out"};
+inline constexpr dialect::Text kStockTooLarge = {"{0} takes more memory than there is for a stock",
+                                                 "{0} occupa più memoria di quella che c'è per un grezzo"};
 }  // namespace mistakes
 
 }  // namespace isocnc::configuration

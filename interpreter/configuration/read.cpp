@@ -181,7 +181,8 @@ class ConfigurationReader {
       case KeyKind::Integer:
         return read_number(key, value, path, slot);
       case KeyKind::Boolean:
-        *std::get<bool*>(slot) = value.boolean;
+        if (bool* const* const flag = std::get_if<bool*>(&slot)) **flag = value.boolean;
+        if (auto* const* const flag = std::get_if<std::optional<bool>*>(&slot)) **flag = value.boolean;
         return;
       case KeyKind::Text:
         if (is_right(key.text, value.string, value.at, path)) store_text(value, path, slot);
@@ -203,8 +204,8 @@ class ConfigurationReader {
 
   void store_text(const JsonValue& value, const std::string& path, const ValueSlot& slot) {
     if (auto* const* const text = std::get_if<std::string*>(&slot)) **text = value.string;
-    if (auto* const* const mesh = std::get_if<std::optional<MeshFile>*>(&slot))
-      **mesh = MeshFile{.name = value.string, .key = shortened(path), .place = places_.of(value.at)};
+    if (auto* const* const mesh = std::get_if<std::optional<ShapeFile>*>(&slot))
+      **mesh = ShapeFile{.name = value.string, .key = shortened(path), .place = places_.of(value.at)};
   }
 
   /// Reads an object, a list element or a named object: first its keys, then conditions on several keys.

@@ -103,19 +103,29 @@ Scenes::ScenePointer Scenes::scene_of_entry(const Configuration& configuration, 
 
 Scenes::ScenePointer Scenes::make(const Configuration& configuration, const std::optional<LocatedSetup>& setup) {
   bool is_whole = true;
-  auto scene = std::make_shared<Scene>(make_scene(configuration.machine, setup, [&](const MeshRequest& request) {
-    auto loaded = meshes_.load(request.folder, request.mesh.name, request.at);
-    if (auto* const mistake = std::get_if<Mistake>(&loaded)) {
-      is_whole = false;
-      mistake->key = request.mesh.key;
-      const std::string file = request.file.generic_string();
-      const LineColumn place = request.mesh.place.shown;
-      if (missing_meshes_.emplace(file, place.line, place.column).second)
-        mistakes_.push_back({.file = file, .place = place, .mistake = std::move(*mistake), .is_of_mesh = true});
-      return std::shared_ptr<const solids::Mesh>();
-    }
-    return std::get<std::shared_ptr<const solids::Mesh>>(std::move(loaded));
-  }));
+  const auto complain = [&](const ShapeRequest& request, Mistake mistake) {
+    is_whole = false;
+    mistake.key = request.shape.key;
+    const std::string file = request.file.generic_string();
+    const LineColumn place = request.shape.place.shown;
+    if (missing_shapes_.emplace(file, place.line, place.column).second)
+      mistakes_.push_back({.file = file, .place = place, .mistake = std::move(mistake), .is_of_shape = true});
+  };
+  const auto shape_in = [&]<class Shape>(std::variant<std::shared_ptr<const Shape>, Mistake> loaded,
+                                         const ShapeRequest& request) -> std::shared_ptr<const Shape> {
+    if (auto* const shape = std::get_if<0>(&loaded)) return std::move(*shape);
+    complain(request, std::get<Mistake>(std::move(loaded)));
+    return nullptr;
+  };
+  const ShapeSource source{.mesh =
+                               [&](const ShapeRequest& request) {
+                                 return shape_in(files_.mesh(request.folder, request.shape.name, request.at), request);
+                               },
+                           .stock =
+                               [&](const ShapeRequest& request) {
+                                 return shape_in(files_.stock(request.folder, request.shape.name), request);
+                               }};
+  auto scene = std::make_shared<Scene>(make_scene(configuration.machine, setup, source));
   return is_whole ? scene : nullptr;
 }
 

@@ -14,8 +14,8 @@
 
 #include "interpreter/configuration/configuration.h"
 #include "interpreter/configuration/make_scene.h"
-#include "interpreter/configuration/meshes.h"
 #include "interpreter/configuration/mistake.h"
+#include "interpreter/configuration/shape_files.h"
 #include "interpreter/verification/scene.h"
 
 namespace isocnc::configuration {
@@ -26,22 +26,22 @@ std::filesystem::path setup_file(const std::filesystem::path& program);
 /// Whether a file has the name of such a setup.
 bool is_setup_file(const std::filesystem::path& file);
 
-/// A mistake in a file that describes surroundings, or why it or a mesh that it names cannot be read.
+/// A mistake in a file that describes surroundings, or why it or a file with a shape that it names cannot be read.
 struct SurroundingsMistake {
   std::string file;  ///< As shown to users.
   LineColumn place;
   Mistake mistake;                ///< Its place in the text is not known.
   bool is_of_whole_file = false;  ///< It has no place.
-  bool is_of_mesh = false;        ///< `mistake.key` names the mesh, and `mistake.names` starts with it.
+  bool is_of_shape = false;       ///< `mistake.key` names a file with a shape, and `mistake.names` starts with it.
 };
 
 /// The scenes of programs. The file beside a program outweighs the `setups` of its configuration. Files are read when a
-/// program first needs them, and meshes once; another object sees what has changed since. All functions may be called
-/// by several threads at the same time.
+/// program first needs them, and those with shapes once; another object sees what has changed since. All functions may
+/// be called by several threads at the same time.
 class Scenes {
  public:
   /// `language` is the language of system errors about files.
-  explicit Scenes(dialect::Language language) : language_(language), meshes_(language) {}
+  explicit Scenes(dialect::Language language) : language_(language), files_(language) {}
 
   /// The scene of a program, which programs with the same setup share; an empty path is a program without a file. Null
   /// if no setup is for the program and the machine has no bodies, and where `mistakes` has an error. The
@@ -70,11 +70,11 @@ class Scenes {
 
   const dialect::Language language_;
   mutable std::mutex mutex_;  // Of all below.
-  Meshes meshes_;
+  ShapeFiles files_;
   std::vector<SurroundingsMistake> mistakes_;
-  /// Where files name meshes that cannot be had, by file, line and column: one of the machine is missing from many
+  /// Where files name shapes that cannot be had, by file, line and column: one of the machine is missing from many
   /// scenes, and reported once.
-  std::set<std::tuple<std::string, std::size_t, std::size_t>> missing_meshes_;
+  std::set<std::tuple<std::string, std::size_t, std::size_t>> missing_shapes_;
   std::map<std::pair<const Configuration*, std::optional<std::size_t>>, ScenePointer> entries_;  // By index in setups.
   std::map<std::pair<const Configuration*, std::string>, OwnScene> own_;                         // By file.
 };

@@ -1,4 +1,4 @@
-#include "interpreter/configuration/meshes.h"
+#include "interpreter/configuration/shape_files.h"
 
 #include <utility>
 #include <vector>
@@ -8,6 +8,7 @@
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/solids/clearance.h"
 #include "interpreter/solids/stl.h"
+#include "interpreter/stock/stock_file.h"
 #include "interpreter/system/source_file.h"
 
 namespace isocnc::configuration {
@@ -63,7 +64,7 @@ static Mistake mistake_of(const system::FileBytesProblem& problem, const std::st
   return mistake(mistakes::kFileProblem, name, problem.message);
 }
 
-Meshes::MeshOrMistake Meshes::read(const fs::path& file, const std::string& name) const {
+ShapeFiles::MeshOrMistake ShapeFiles::read_mesh(const fs::path& file, const std::string& name) const {
   const auto bytes = system::read_bytes(file, kLargestMesh, language_);
   if (const auto* const problem = std::get_if<system::FileBytesProblem>(&bytes)) return mistake_of(*problem, name);
   auto triangles = solids::read_stl(std::get<std::string>(bytes));
@@ -76,17 +77,22 @@ Meshes::MeshOrMistake Meshes::read(const fs::path& file, const std::string& name
   return mesh;
 }
 
-const Meshes::MeshOrMistake& Meshes::unshifted(const fs::path& folder, const std::string& name) {
-  const std::pair<std::string, std::string> key(folder.generic_string(), name);
-  if (const auto known = files_.find(key); known != files_.end()) return known->second;
+/// The file of a name; none if it is outside the folder.
+static std::optional<fs::path> file_below(const fs::path& folder, const std::string& name) {
   const fs::path file = real_path(folder / name);
   const fs::path below = file.lexically_relative(folder);
-  if (below.empty() || *below.begin() == "..") return files_[key] = mistake(mistakes::kOutsideFolder, name);
-  return files_[key] = read(file, name);
+  return below.empty() || *below.begin() == ".." ? std::nullopt : std::optional(file);
 }
 
-Meshes::MeshOrMistake Meshes::load(const fs::path& folder, const std::string& name,
-                                   const std::optional<geometry::Vec3>& shift) {
+const ShapeFiles::MeshOrMistake& ShapeFiles::unshifted(const fs::path& folder, const std::string& name) {
+  const FolderAndName key(folder.generic_string(), name);
+  if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
+  const std::optional<fs::path> file = file_below(folder, name);
+  return meshes_[key] = file ? read_mesh(*file, name) : mistake(mistakes::kOutsideFolder, name);
+}
+
+ShapeFiles::MeshOrMistake ShapeFiles::mesh(const fs::path& folder, const std::string& name,
+                                           const std::optional<geometry::Vec3>& shift) {
   const MeshOrMistake& loaded = unshifted(folder, name);
   const auto* const mesh = std::get_if<std::shared_ptr<const Mesh>>(&loaded);
   if (mesh == nullptr || !shift || shift->isZero(0)) return loaded;
@@ -99,6 +105,41 @@ Meshes::MeshOrMistake Meshes::load(const fs::path& folder, const std::string& na
   for (Triangle& triangle : triangles)
     for (geometry::Vec3& corner : triangle.corners) corner += *shift;
   return shifted_[key] = std::make_shared<const Mesh>(std::move(triangles));
+}
+
+ShapeFiles::StockOrMistake ShapeFiles::read_stock(const fs::path& file, const std::string& name) const {
+  const auto bytes = system::read_bytes(file, kLargestMesh, language_);
+  if (const auto* const problem = std::get_if<system::FileBytesProblem>(&bytes)) {
+    using Kind = system::FileBytesProblem::Kind;
+    if (problem->kind == Kind::NotRegular) return mistake(mistakes::kNotThisKind, name);
+    if (problem->kind == Kind::TooLarge) return mistake(mistakes::kStockTooLarge, name);
+    return mistake(mistakes::kStockUnreadable, name, problem->message);
+  }
+  auto read = stock::read_stock(std::get<std::string>(bytes));
+  if (auto* const left = std::get_if<stock::Stock>(&read))
+    return std::make_shared<const stock::Stock>(std::move(*left));
+  using Kind = stock::StockFileProblem::Kind;
+  const auto& problem = std::get<stock::StockFileProblem>(read);
+  switch (problem.kind) {
+    case Kind::NotAStock:
+      return mistake(mistakes::kNoStock, name);
+    case Kind::OtherVersion:
+      return mistake(mistakes::kStockVersion, name);
+    case Kind::TooLarge:
+      return mistake(mistakes::kStockTooLarge, name);
+    case Kind::Truncated:
+    case Kind::TooLong:
+    case Kind::ImpossibleValue:
+      break;
+  }
+  return mistake(mistakes::kStockBroken, name, fmt::format("{}", problem.offset));
+}
+
+ShapeFiles::StockOrMistake ShapeFiles::stock(const fs::path& folder, const std::string& name) {
+  const FolderAndName key(folder.generic_string(), name);
+  if (const auto known = stocks_.find(key); known != stocks_.end()) return known->second;
+  const std::optional<fs::path> file = file_below(folder, name);
+  return stocks_[key] = file ? read_stock(*file, name) : mistake(mistakes::kOutsideFolder, name);
 }
 
 }  // namespace isocnc::configuration

@@ -37,6 +37,9 @@ static std::optional<ordered_json> value_in(const std::optional<int>* whole) {
   return *whole ? std::optional<ordered_json>(**whole) : std::nullopt;
 }
 static std::optional<ordered_json> value_in(const bool* flag) { return *flag; }
+static std::optional<ordered_json> value_in(const std::optional<bool>* flag) {
+  return *flag ? std::optional<ordered_json>(**flag) : std::nullopt;
+}
 static std::optional<ordered_json> value_in(const std::string* text) {
   return text->empty() ? std::nullopt : std::optional<ordered_json>(*text);
 }
@@ -70,7 +73,7 @@ static std::optional<ordered_json> value_in(const std::vector<NamedRows>* all) {
   for (const NamedRows& each : *all) object[each.name] = rows_value(each.rows);
   return object;
 }
-static std::optional<ordered_json> value_in(const std::optional<MeshFile>* mesh) {
+static std::optional<ordered_json> value_in(const std::optional<ShapeFile>* mesh) {
   return *mesh ? std::optional<ordered_json>((*mesh)->name) : std::nullopt;
 }
 /// Objects have their keys in the table; only their presence matters here.

@@ -26,7 +26,22 @@ static bool touches(const StockPiece& piece, const stock::Stock& stock, const so
   return found;
 }
 
+/// Whether a piece goes on outside the window, where nobody knows what holds it.
+static bool goes_on(const StockPiece& piece, const stock::Stock& stock, const Workpiece& workpiece) {
+  if (!workpiece.window) return false;
+  const solids::BoundingBox blank = stock::bounds_of(workpiece.blank);
+  const double cell = stock.spacing() / 2;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double first = stock.bounds().min()[axis];
+    const double last = stock.bounds().max()[axis];
+    if (first > blank.min()[axis] && piece.bounds.min()[axis] < first + cell) return true;
+    if (last < blank.max()[axis] && piece.bounds.max()[axis] > last - cell) return true;
+  }
+  return false;
+}
+
 static bool is_held(const StockPiece& piece, const stock::Stock& stock, const Workpiece& workpiece) {
+  if (goes_on(piece, stock, workpiece)) return true;
   if (workpiece.board_top && piece.bounds.min().z() <= *workpiece.board_top + kTouch) return true;
   return std::any_of(workpiece.holding.begin(), workpiece.holding.end(),
                      [&](const solids::BoundingBox& box) { return touches(piece, stock, box); });
@@ -35,7 +50,8 @@ static bool is_held(const StockPiece& piece, const stock::Stock& stock, const Wo
 std::vector<StockPiece> loose_pieces(const stock::Stock& stock, const Workpiece& workpiece) {
   if (workpiece.holding.empty() && !workpiece.board_top) return {};
   std::vector<StockPiece> pieces = stock::pieces_of(stock);
-  if (pieces.size() < 2 || !is_held(pieces.front(), stock, workpiece)) return {};
+  if (pieces.empty() || (pieces.size() < 2 && !workpiece.window)) return {};
+  if (!is_held(pieces.front(), stock, workpiece)) return {};
   std::erase_if(pieces, [&](const StockPiece& piece) {
     const Eigen::Vector3d sizes = piece.bounds.sizes();
     return piece.volume < kMinVolume || sizes.head<2>().minCoeff() < kMinWidth || is_held(piece, stock, workpiece);

@@ -38,7 +38,7 @@ MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine
     : workpiece_(std::move(workpiece)),
       machine_(machine),
       workers_(std::move(workers)),
-      stock_(workpiece_.blank, workpiece_.spacing),
+      stock_(workpiece_.blank, workpiece_.spacing, workpiece_.window),
       blank_volume_(stock_.volume()),
       skin_(skin_of(stock_.spacing())) {}
 
@@ -333,7 +333,8 @@ void MaterialCheck::note_ways(const std::vector<bool>& has_cut) {
 }
 
 void MaterialCheck::end_way() {
-  if (way_ && way_->amount > workpiece_.longest_air_cut) keep(*way_);
+  // A way outside the window may have met something.
+  if (way_ && way_->amount > workpiece_.longest_air_cut && !workpiece_.window) keep(*way_);
   way_.reset();
 }
 

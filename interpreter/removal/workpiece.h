@@ -27,6 +27,7 @@ struct CuttingTool {
 struct Workpiece {
   stock::Blank blank;
   double spacing = 0.5;                      ///< Of the dexels.
+  std::optional<stock::Window> window;       ///< The part of the blank that is looked at; all of it without.
   double clearance = 0;                      ///< Holder and nose should not come nearer to material.
   std::optional<stock::Blank> target;        ///< The finished part.
   double tolerance = 0;                      ///< What may be left on the target.

@@ -274,9 +274,17 @@ BoundingBox bounds_of(const Blank& blank) {
   return std::get<solids::Cuboid>(blank).bounds();
 }
 
-DexelGrid grid_over(const Blank& blank, double spacing) {
+BoundingBox bounds_of(const Blank& blank, const std::optional<Window>& window) {
+  BoundingBox bounds = bounds_of(blank);
+  if (!window) return bounds;
+  bounds.min().head<2>() = bounds.min().head<2>().cwiseMax(window->min());
+  bounds.max().head<2>() = bounds.max().head<2>().cwiseMin(window->max());
+  return bounds;
+}
+
+DexelGrid grid_over(const Blank& blank, double spacing, const std::optional<Window>& window) {
   const auto* left = std::get_if<LeftStock>(&blank);
-  if (!left) return grid_over(bounds_of(blank), spacing);
+  if (!left || window) return grid_over(bounds_of(blank, window), spacing);
   // The sides of the earlier bounds: a shift may change their last digits, and so add a cell.
   DexelGrid grid = grid_over(left->stock->bounds(), spacing);
   if (LeftStockPlace(*left).is_turned_aside()) std::swap(grid.columns, grid.rows);

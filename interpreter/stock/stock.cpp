@@ -31,7 +31,8 @@ void for_each_tile(const DexelGrid& grid, Use&& use) {
 
 }  // namespace
 
-Stock::Stock(const Blank& blank, double spacing) : Stock(bounds_of(blank), grid_over(blank, spacing)) {
+Stock::Stock(const Blank& blank, double spacing, const std::optional<Window>& window)
+    : Stock(bounds_of(blank, window), grid_over(blank, spacing, window)) {
   std::map<std::array<int, 2>, TilePointer> uniform;  // By columns and rows.
   for_each_tile(grid(), [&](const TileIndex& index) {
     const DexelGrid part = grid().tile(index.column, index.row);
@@ -160,9 +161,9 @@ void for_each_change(const Stock& old, const Stock& now, const std::function<voi
   }
 }
 
-double required_memory(const Blank& blank, double spacing) {
+double required_memory(const Blank& blank, double spacing, const std::optional<Window>& window) {
   if (!(spacing > 0)) return std::numeric_limits<double>::infinity();
-  const Vec3 size = bounds_of(blank).sizes();
+  const Vec3 size = bounds_of(blank, window).sizes();
   const auto tiles_across = [&](double length) {
     return std::ceil(std::max(1.0, std::ceil(length / spacing * (1 - 1e-12))) / Tile::kSize);
   };
@@ -171,11 +172,11 @@ double required_memory(const Blank& blank, double spacing) {
   return dexels * (kBytesOfDexel + lower_ends);
 }
 
-double fitting_spacing(const Blank& blank, double limit) {
-  const Vec3 size = bounds_of(blank).sizes();
+double fitting_spacing(const Blank& blank, double limit, const std::optional<Window>& window) {
+  const Vec3 size = bounds_of(blank, window).sizes();
   double spacing = std::sqrt(std::max(1e-12, size.x() * size.y() * kBytesOfDexel / std::max(1.0, limit)));
   const double coarsest = std::max({1e-6, size.x(), size.y()});
-  while (required_memory(blank, spacing) > limit && spacing < coarsest) spacing *= 1.01;
+  while (required_memory(blank, spacing, window) > limit && spacing < coarsest) spacing *= 1.01;
   return spacing;
 }
 

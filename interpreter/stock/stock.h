@@ -30,9 +30,9 @@ struct TileIndex {
 /// the dexels alone: every disc of the diameter sqrt(2) spacing() in a horizontal plane holds one.
 class Stock {
  public:
-  /// Dexels at `spacing` or less (grid_over). See required_memory() first: nothing here refuses a fine spacing, except
-  /// that there are at most 2^17 columns and rows.
-  Stock(const Blank& blank, double spacing);
+  /// Dexels at `spacing` or less (grid_over), of the part of the blank in a window if there is one. See
+  /// required_memory() first: nothing here refuses a fine spacing, except that there are at most 2^17 columns and rows.
+  Stock(const Blank& blank, double spacing, const std::optional<Window>& window = {});
   /// A stock of given tiles, none of them null: row by row, and as many as grid_of(bounds, columns, rows) has.
   Stock(const solids::BoundingBox& bounds, int columns, int rows, std::vector<std::shared_ptr<Tile>> tiles);
 
@@ -43,7 +43,7 @@ class Stock {
 
   const DexelGrid& grid() const { return tree_->grid; }
   double spacing() const { return grid().spacing.maxCoeff(); }
-  /// Those of the blank.
+  /// Those of the blank, or of its part in the window.
   const solids::BoundingBox& bounds() const { return tree_->bounds; }
   const Tile& tile(const TileIndex& index) const { return *tile_at(index); }
 
@@ -91,9 +91,9 @@ void for_each_change(const Stock& old, const Stock& now, const std::function<voi
 
 /// Bytes that a stock takes when every dexel has been cut and has one interval; further intervals, as undercuts leave
 /// them, take 12 each. Infinite if the spacing is not positive.
-double required_memory(const Blank& blank, double spacing);
+double required_memory(const Blank& blank, double spacing, const std::optional<Window>& window = {});
 
 /// The smallest spacing, mm, of which the required memory is at most `limit` bytes, up to 1 %.
-double fitting_spacing(const Blank& blank, double limit);
+double fitting_spacing(const Blank& blank, double limit, const std::optional<Window>& window = {});
 
 }  // namespace isocnc::stock

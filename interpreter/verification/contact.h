@@ -70,12 +70,13 @@ struct Unverified {
 
 /// What has been proven, and what not.
 struct Certificate {
-  std::size_t motions = 0;          ///< Motions of the machine that were examined.
-  std::size_t contacts = 0;         ///< Near misses do not count.
-  double epsilon = 0;               ///< Nothing nearer than this is unseen, mm.
-  std::optional<double> soft_disc;  ///< No overlap with material that holds a disc of this diameter is unseen, mm.
-  std::string scene;                ///< The file that describes the setup, or the machine; as shown to users.
-  bool has_setup = true;            ///< Whether a setup is for the program.
+  std::size_t motions = 0;              ///< Motions of the machine that were examined.
+  std::size_t contacts = 0;             ///< Near misses do not count.
+  double epsilon = 0;                   ///< Nothing nearer than this is unseen, mm.
+  std::optional<double> soft_disc;      ///< No overlap with material that holds a disc of this diameter is unseen, mm.
+  std::optional<stock::Window> window;  ///< Outside of it nothing is known of the material; frame of the setup.
+  std::string scene;                    ///< The file that describes the setup, or the machine; as shown to users.
+  bool has_setup = true;                ///< Whether a setup is for the program.
   std::vector<Unverified> gaps;
   /// Bodies of the machine that are not compared, since they touch each other from the start: `gantry` and `rails`.
   std::vector<std::pair<std::string, std::string>> touching;

@@ -35,22 +35,25 @@ static const SceneBody* body_for(const Scene& scene, BodyRole role) {
 }
 
 /// The spacing for a blank of which the user has said none.
-static double usual_spacing(const stock::Blank& blank) {
-  const Eigen::Vector3d sizes = stock::bounds_of(blank).sizes();
+static double usual_spacing(const removal::Workpiece& workpiece) {
+  const stock::Blank& blank = workpiece.blank;
+  if (const auto* const left = std::get_if<stock::LeftStock>(&blank)) return left->stock->spacing();
+  const Eigen::Vector3d sizes = stock::bounds_of(blank, workpiece.window).sizes();
   const double fine = std::clamp(std::sqrt(sizes.x() * sizes.y() / kDexels), kFinest, kUsual);
-  return std::max(fine, stock::fitting_spacing(blank, kMaxStockMemory / 8));
+  return std::max(fine, stock::fitting_spacing(blank, kMaxStockMemory / 8, workpiece.window));
 }
 
 std::optional<removal::Workpiece> workpiece_of(const Scene& scene, const geometry::Vec3& origin,
                                                const MaterialOptions& options) {
   const SceneBody* const body = body_for(scene, BodyRole::Stock);
   if (!body || !options.is_cut) return std::nullopt;
-  removal::Workpiece workpiece{.blank = blank_of(*body)};
+  removal::Workpiece workpiece{.blank = scene.left_stock ? *scene.left_stock : blank_of(*body)};
+  workpiece.window = options.window;
   workpiece.spacing = options.resolution ? *options.resolution
                       : scene.resolution ? *scene.resolution
-                                         : usual_spacing(workpiece.blank);
+                                         : usual_spacing(workpiece);
   if (options.max_dexels) {
-    const Eigen::Vector3d sizes = stock::bounds_of(workpiece.blank).sizes();
+    const Eigen::Vector3d sizes = stock::bounds_of(workpiece.blank, workpiece.window).sizes();
     workpiece.spacing = std::max(workpiece.spacing, std::sqrt(sizes.x() * sizes.y() / *options.max_dexels));
   }
   workpiece.clearance = scene.clearance;
@@ -66,8 +69,9 @@ std::optional<removal::Workpiece> workpiece_of(const Scene& scene, const geometr
 }
 
 std::optional<double> coarser_spacing(const removal::Workpiece& workpiece) {
-  if (stock::required_memory(workpiece.blank, workpiece.spacing) <= kMaxStockMemory) return std::nullopt;
-  return stock::fitting_spacing(workpiece.blank, kMaxStockMemory);
+  if (stock::required_memory(workpiece.blank, workpiece.spacing, workpiece.window) <= kMaxStockMemory)
+    return std::nullopt;
+  return stock::fitting_spacing(workpiece.blank, kMaxStockMemory, workpiece.window);
 }
 
 removal::CuttingTool cutting_tool(const Scene& scene, const MountedTool& tool) {

@@ -13,6 +13,8 @@ namespace isocnc::verification {
 struct MaterialOptions {
   bool is_cut = true;                ///< Otherwise nothing is asked about material.
   std::optional<double> resolution;  ///< Spacing of the dexels, mm; outweighs that of the setup.
+  /// The part of the blank that is looked at, in the frame of the setup; all of it without.
+  std::optional<stock::Window> window = {};
   std::optional<double> max_dexels;  ///< Makes the spacing coarser, so that there are not more.
 };
 

@@ -15,6 +15,7 @@
 #include "interpreter/solids/mesh.h"
 #include "interpreter/solids/obstacle.h"
 #include "interpreter/solids/revolved_body.h"
+#include "interpreter/stock/blank.h"
 
 namespace isocnc::verification {
 
@@ -77,9 +78,11 @@ struct Scene {
   bool is_in_workpiece_frame = true;  ///< The frame of `setup`: that of the first G92, else the machine's.
   double clearance = 2;               ///< What is nearer, without a contact, is a near miss (W154); mm.
   std::optional<double> resolution;   ///< How fine the stock is simulated, mm; none: as it fits.
-  double target_tolerance = 0;        ///< Gouges of the target up to this depth are accepted, mm.
-  std::string name;                   ///< The file that describes the setup, or the machine; as shown to users.
-  bool has_setup = true;              ///< Otherwise these are the bodies of the machine alone.
+  /// What an earlier setup has left, if that is the blank: the stock in `setup` is then the box around it.
+  std::optional<stock::LeftStock> left_stock;
+  double target_tolerance = 0;  ///< Gouges of the target up to this depth are accepted, mm.
+  std::string name;             ///< The file that describes the setup, or the machine; as shown to users.
+  bool has_setup = true;        ///< Otherwise these are the bodies of the machine alone.
 };
 
 /// The box around a shape, in its frame, mm.

@@ -40,6 +40,7 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
   }
   material_.emplace(*std::move(workpiece), machine, work_together_);
   constexpr double kDiagonal = 1.4142135623730951;
+  if (material_->workpiece().window) certificate_.window = material_->workpiece().window;
   certificate_.soft_disc = kDiagonal * material_->stock().spacing() + 2 * material_->skin();
 }
 

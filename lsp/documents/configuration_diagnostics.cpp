@@ -62,13 +62,14 @@ namespace {
 /// What the text of a file says.
 struct DescribedFile {
   std::vector<Mistake> mistakes;
-  std::vector<configuration::MeshFile> meshes;
+  std::vector<configuration::ShapeFile> shapes;
 
-  void add(const std::optional<configuration::MeshFile>& mesh) {
-    if (mesh) meshes.push_back(*mesh);
+  void add(const std::optional<configuration::ShapeFile>& shape) {
+    if (shape) shapes.push_back(*shape);
   }
   void add(const configuration::DescribedSetup& setup) {
     if (setup.stock) add(setup.stock->shape.mesh);
+    if (setup.stock) add(setup.stock->from);
     for (const configuration::DescribedBody& fixture : setup.fixtures) add(fixture.shape.mesh);
     if (setup.target) add(setup.target->mesh);
   }
@@ -101,12 +102,12 @@ static std::size_t offset_of(std::string_view text, const configuration::Descrip
   return static_cast<std::size_t>(begin - text.data()) + place.byte;
 }
 
-/// What is wrong with the mesh as far as it is known.
-static const Mistake* mistake_of(const configuration::MeshFile& mesh, const fs::path& file,
+/// What is wrong with a file with a shape as far as it is known.
+static const Mistake* mistake_of(const configuration::ShapeFile& shape, const fs::path& file,
                                  const std::vector<configuration::SurroundingsMistake>& known) {
   for (const configuration::SurroundingsMistake& each : known) {
-    if (!each.is_of_mesh || each.mistake.key != mesh.key || each.mistake.names.empty()) continue;
-    if (each.mistake.names.front().en == configuration::shortened(mesh.name) &&
+    if (!each.is_of_shape || each.mistake.key != shape.key || each.mistake.names.empty()) continue;
+    if (each.mistake.names.front().en == configuration::shortened(shape.name) &&
         configuration::real_path(each.file) == file)
       return &each.mistake;
   }
@@ -133,8 +134,8 @@ Json configuration_diagnostics(std::string_view text, const fs::path& file, cons
   const std::vector<configuration::SurroundingsMistake> known = scenes.all_mistakes();
   if (known.empty()) return all;
   const fs::path real = configuration::real_path(file);
-  for (const configuration::MeshFile& mesh : described.meshes)
-    if (const Mistake* const mistake = mistake_of(mesh, real, known)) add(offset_of(text, mesh.place), *mistake);
+  for (const configuration::ShapeFile& shape : described.shapes)
+    if (const Mistake* const mistake = mistake_of(shape, real, known)) add(offset_of(text, shape.place), *mistake);
   return all;
 }
 

@@ -1,13 +1,15 @@
 #include "lsp/protocol/uri.h"
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "analyzer/formats/rendering.h"
 #include "interpreter/configuration/configurations.h"
-#include "interpreter/configuration/meshes.h"
 #include "interpreter/configuration/scenes.h"
+#include "interpreter/configuration/shape_files.h"
 #include "interpreter/dialect/any_case.h"
 
 namespace isocnc::protocol {
@@ -49,9 +51,13 @@ bool names_configuration(std::string_view uri) {
   return path && (path->filename() == configuration::kFileName || configuration::is_setup_file(*path));
 }
 
-bool names_mesh(std::string_view uri) {
+bool names_shape(std::string_view uri) {
   const auto path = path_of(uri);
-  return path && dialect::ends_with(path->filename().generic_string(), configuration::kMeshExtension);
+  const auto has = [&](std::string_view extension) {
+    return dialect::ends_with(path->filename().generic_string(), extension);
+  };
+  return path &&
+         std::any_of(std::begin(configuration::kShapeExtensions), std::end(configuration::kShapeExtensions), has);
 }
 
 std::string uri_of(const std::filesystem::path& path) { return formats::uri_of(path.generic_string()); }

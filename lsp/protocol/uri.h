@@ -14,7 +14,7 @@ std::optional<std::filesystem::path> path_of(std::string_view uri);
 /// although the editor may have them open.
 bool names_configuration(std::string_view uri);
 /// Whether a URI names an STL file, which a setup may name.
-bool names_mesh(std::string_view uri);
+bool names_shape(std::string_view uri);
 
 /// The URI of an absolute path, such as `file:///part%201.iso`.
 std::string uri_of(const std::filesystem::path& path);

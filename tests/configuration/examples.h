@@ -186,7 +186,7 @@ inline constexpr WrongText kWrongTexts[] = {
     {R"({"machine": {"bodies": [{"name": "a", "on": "B", "mesh": "a.stl"}], "kinematics": {"type": "three-axis"}}})",
      "1:45: machine.bodies[0].on: a machine with three axes has no B", kSchemaAccepts},
     {R"({"setups": [{"paths": ["a"], "stock": {}, "spoilboard": {"top": 0, "area": [[0, 5], [1, 4]]}}]})",
-     "1:39: setups[0].stock: one of box, cylinder and mesh is needed\n"
+     "1:39: setups[0].stock: one of box, cylinder, mesh and from is needed\n"
      "1:89: setups[0].spoilboard.area[1][1]: 4 is less than 5 of the lower corner",
      kSchemaAccepts},
     {R"({"setups": [{"paths": ["a"], "stock": {"cylinder": {"at": [0, 0, 0], "axis": [0, 0, 0], "height": 1,

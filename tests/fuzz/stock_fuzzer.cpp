@@ -26,7 +26,9 @@ static void read(std::string_view bytes) {
   stock::for_each_change(made, std::get<Stock>(again), [&](int, int) { is_same = false; });
   require(is_same, "the material stays");
 
-  const Stock over(stock::LeftStock{.stock = &made, .is_turned_over = true, .quarter_turns = 1}, made.spacing());
+  const Stock over(
+      stock::LeftStock{.stock = std::make_shared<const Stock>(made), .is_turned_over = true, .quarter_turns = 1},
+      made.spacing());
   if (over.grid().columns == made.grid().rows && over.grid().rows == made.grid().columns)
     require(over.volume() <= made.volume() * 1.001 + 0.001, "turned over, it has no more");
   double volume = 0;

@@ -191,7 +191,8 @@ TEST_F(Workspace, AsksTheEditorToWatchTheConfigurationFiles) {
   EXPECT_EQ(
       registrations[0]["registerOptions"]["watchers"],
       Json::parse(
-          R"([{"globPattern": "**/isocnc.json"}, {"globPattern": "**/*.setup.json"}, {"globPattern": "**/*.[sS][tT][lL]"}])"));
+          R"([{"globPattern": "**/isocnc.json"}, {"globPattern": "**/*.setup.json"}, {"globPattern": "**/*.[sS][tT][lL]"},
+              {"globPattern": "**/*.[sS][tT][oO][cC][kK]"}])"));
 }
 
 const Json kRefreshed = {{"textDocument", {{"diagnostic", Json::object()}}},
@@ -233,20 +234,22 @@ Json patterns_in(const Json& registration) {
 
 TEST_F(Workspace, AsksTheEditorToWatchThePrograms) {
   start_with(kWatched);
-  EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")),
-            (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[sS][tT][lL]", "**/*.[cC][nN][cC]", "**/*.[iI][sS][oO]",
-                  "**/*.[nN][cC]", "**/*.[nN][gG][cC]", "**/*.[tT][aA][pP]"}));
+  EXPECT_EQ(
+      patterns_in(session_.wait_for("client/registerCapability")),
+      (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[sS][tT][lL]", "**/*.[sS][tT][oO][cC][kK]", "**/*.[cC][nN][cC]",
+            "**/*.[iI][sS][oO]", "**/*.[nN][cC]", "**/*.[nN][gG][cC]", "**/*.[tT][aA][pP]"}));
   write("isocnc.json", R"({"lint": {"extensions": [".H", ".mpf2"]}})");
   session_.notify("workspace/didChangeWatchedFiles", {{"changes", {{{"uri", uri("isocnc.json")}, {"type", 1}}}}});
   EXPECT_EQ(session_.wait_for("client/unregisterCapability")["params"]["unregisterations"][0]["id"], "files");
   EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")),
-            (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[sS][tT][lL]", "**/*.[hH]", "**/*.[mM][pP][fF]2"}));
+            (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[sS][tT][lL]", "**/*.[sS][tT][oO][cC][kK]", "**/*.[hH]",
+                  "**/*.[mM][pP][fF]2"}));
 }
 
 TEST_F(Workspace, WatchesNoProgramsThatTheUserDoesNotWantChecked) {
   start_with(kWatched, {{"initializationOptions", {{"workspaceDiagnostics", false}}}});
   EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")),
-            (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[sS][tT][lL]"}));
+            (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[sS][tT][lL]", "**/*.[sS][tT][oO][cC][kK]"}));
 }
 
 /// A CAM system writes into an open folder, and the editor has not opened the program.

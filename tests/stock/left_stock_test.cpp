@@ -27,8 +27,10 @@ TEST(LeftStock, HasEveryDexelHoweverItIsTurned) {
   const Stock old = first_side();
   for (const bool is_turned_over : {false, true})
     for (const int quarter_turns : {-1, 0, 1, 2, 3, 4}) {
-      const LeftStock left{
-          .stock = &old, .shift = {12.3, -7.7, 4}, .is_turned_over = is_turned_over, .quarter_turns = quarter_turns};
+      const LeftStock left{.stock = std::make_shared<const Stock>(old),
+                           .shift = {12.3, -7.7, 4},
+                           .is_turned_over = is_turned_over,
+                           .quarter_turns = quarter_turns};
       const Stock now(left, old.spacing());
       ASSERT_EQ(now.grid().columns, quarter_turns % 2 == 0 ? old.grid().columns : old.grid().rows);
       EXPECT_NEAR(now.volume(), old.volume(), 1e-6 * old.volume());
@@ -51,14 +53,14 @@ TEST(LeftStock, HasEveryDexelHoweverItIsTurned) {
 
 TEST(LeftStock, HasItsBoundsTurned) {
   const Stock old = first_side();
-  const solids::BoundingBox bounds = bounds_of(LeftStock{&old, {1, 2, 3}, true, 1});
+  const solids::BoundingBox bounds = bounds_of(LeftStock{std::make_shared<const Stock>(old), {1, 2, 3}, true, 1});
   EXPECT_EQ(bounds.min(), Vec3(20 + 1, 10 + 2, 3));
   EXPECT_EQ(bounds.max(), Vec3(220 + 1, 310 + 2, 18 + 3));
 }
 
 TEST(LeftStock, TakesTheNearestDexelsAtAnotherSpacing) {
   const Stock old = first_side();
-  const Stock now(LeftStock{.stock = &old, .shift = {100, 0, 0}}, 0.31);
+  const Stock now(LeftStock{.stock = std::make_shared<const Stock>(old), .shift = {100, 0, 0}}, 0.31);
   EXPECT_LE(now.spacing(), 0.31);
   EXPECT_NEAR(now.volume(), old.volume(), 1e-3 * old.volume());
   for (const Vec2& at : {Vec2(60, 60), Vec2(200, 40), Vec2(70, 186), Vec2(290, 210)}) {
@@ -73,14 +75,14 @@ TEST(LeftStock, StaysUniformWhereItHasNoCut) {
   Stock old(box({0, 0, -18}, {640, 640, 0}), 0.5);
   const RevolvedBody tool = flat(5);
   apply(old, line(tool, {32, 32, -5}, {40, 32, -5}));
-  const Stock now(LeftStock{.stock = &old, .is_turned_over = true}, 0.5);
+  const Stock now(LeftStock{.stock = std::make_shared<const Stock>(old), .is_turned_over = true}, 0.5);
   EXPECT_LT(now.memory(), 300000U);  // Of 6.5 MB.
   EXPECT_FALSE(now.cut_by(32, -32)) << "the sweeps of an earlier setup have no meaning in this one";
 }
 
 TEST(LeftStock, IsCutAsAnyOther) {
   const Stock old = first_side();
-  Stock now(LeftStock{.stock = &old, .is_turned_over = true}, old.spacing());
+  Stock now(LeftStock{.stock = std::make_shared<const Stock>(old), .is_turned_over = true}, old.spacing());
   const RevolvedBody tool = flat(6);
   // From the other side, where the pocket of 5 mm is below: 13 mm are left.
   const SweepOutcome outcome = apply(now, line(tool, {65, -60, -2}, {65, -60, -2}));

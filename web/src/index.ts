@@ -8,7 +8,7 @@ export interface Options {
   language?: 'en' | 'it';
   /** What an isocnc.json beside the program says: its text, or its value. */
   configuration?: string | object;
-  /** What stands beside the program, by names as the configuration has them: `part.setup.json`, STL files. */
+  /** What stands beside the program, by names as the configuration has them: `part.setup.json`, STL files, stocks. */
   files?: Readonly<Record<string, string | Uint8Array>>;
   /** What the program is called in messages; else program.iso. */
   filename?: string;

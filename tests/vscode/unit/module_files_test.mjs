@@ -39,7 +39,7 @@ const vscode = `
   };`;
 
 const { changed, configurationsAbove, filesOfArguments, filesOfFolder, setupBeside, watch } = await module('module/files', { vscode });
-const { meshesIn, setupNameOf } = await module('module/named_files');
+const { shapesIn, setupNameOf } = await module('module/named_files');
 
 const uri = (path) => ({ scheme: 'file', authority: '', path, with: (other) => uri(other.path), toString: () => `file://${path}` });
 
@@ -110,9 +110,9 @@ test('a changed setup comes with the meshes that it names; of meshes only known 
   assert.deepEqual(sent, [['/shop/parts/door.setup.json', '/shop/parts/door.stl'], ['/shop/parts/door.stl']]);
 });
 
-test('names of meshes are found in JSON with comments', () => {
-  const text = '{"a": 1, // "mesh": "old.stl"\n "mesh" : "a\\u0020b/\\"c\\".stl", "fixtures": [{"mesh":"./d.stl"}, {"mesh": "./d.stl"}, {"mesh": 3}]}';
-  assert.deepEqual(meshesIn(text), [['old.stl'], ['a b', '"c".stl'], ['d.stl']]);
+test('names of meshes and stocks are found in JSON with comments', () => {
+  const text = '{"a": 1, // "mesh": "old.stl"\n "mesh" : "a\\u0020b/\\"c\\".stl", "fixtures": [{"mesh":"./d.stl"}, {"mesh": "./d.stl"}, {"mesh": 3}], "stock": {"from": "side1.stock"}}';
+  assert.deepEqual(shapesIn(text), [['old.stl'], ['a b', '"c".stl'], ['d.stl'], ['side1.stock']]);
 });
 
 test('the setup of a program is named after it', () => {

@@ -69,8 +69,8 @@ export class ModuleClient extends BaseLanguageClient {
           // The server reads the file anew, which has to be there.
           didChangeWatchedFile: async (event, next) => {
             const uri = vscode.Uri.parse(event.uri);
-            // Of meshes it reads only those that a file names which it has got.
-            if (this.sent.has(pathOf(uri)) || !uri.path.toLowerCase().endsWith('.stl')) this.send(await changed(uri));
+            // Of shapes it reads only those that a file names which it has got.
+            if (this.sent.has(pathOf(uri)) || !/\.(?:stl|stock)$/i.test(uri.path)) this.send(await changed(uri));
             await next(event);
           },
         },

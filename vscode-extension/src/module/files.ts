@@ -1,7 +1,7 @@
 /** Files of the workspace for the module, which sees only those in its own memory. */
 import * as vscode from 'vscode';
 import { nameOf, uriOf, uriOfPath } from '../files';
-import { meshesIn, setupNameOf, setupEnding } from './named_files';
+import { shapesIn, setupNameOf, setupEnding } from './named_files';
 import { isComplete, pathOf } from './names';
 
 /** By the paths that the module has; null where a file has been removed. */
@@ -11,8 +11,8 @@ const configuration = 'isocnc.json';
 /** What a search for programs looks at beside them. */
 const searched = [configuration, '.gitignore'];
 const skipped = ['.git', 'node_modules'];
-/** Nothing larger is a mesh. */
-const largestMesh = 512 << 20; // Bytes.
+/** Nothing larger is read as a shape. */
+const largestShape = 512 << 20; // Bytes.
 
 async function read(uri: vscode.Uri): Promise<Uint8Array | null> {
   try {
@@ -36,37 +36,37 @@ async function typeOf(uri: vscode.Uri): Promise<vscode.FileStat | null> {
   return Promise.resolve(vscode.workspace.fs.stat(uri)).catch(() => null);
 }
 
-/** A mesh in a folder or below; null for one that is not there. A link might lead to a file that is none of the folder's. */
-async function meshOf(folder: vscode.Uri, steps: readonly string[]): Promise<Files> {
+/** A file with a shape in a folder or below; null for one that is not there. A link might lead to a file that is none of the folder's. */
+async function shapeOf(folder: vscode.Uri, steps: readonly string[]): Promise<Files> {
   const place = (count: number) => vscode.Uri.joinPath(folder, ...steps.slice(0, count));
   const stats = await Promise.all(steps.map((_, i) => typeOf(place(i + 1))));
   const isPlain = stats.every((stat, i) => stat?.type === (i + 1 === steps.length ? vscode.FileType.File : vscode.FileType.Directory));
   const uri = place(steps.length);
-  return isPlain && stats.at(-1)!.size <= largestMesh ? fileOf(uri) : { [pathOf(uri)]: null };
+  return isPlain && stats.at(-1)!.size <= largestShape ? fileOf(uri) : { [pathOf(uri)]: null };
 }
 
-/** Descriptions with the meshes that they name, which the module reads where it verifies a program. */
-async function withMeshes(descriptions: readonly vscode.Uri[]): Promise<Files> {
+/** Descriptions with the shapes that they name, which the module reads where it verifies a program. */
+async function withShapes(descriptions: readonly vscode.Uri[]): Promise<Files> {
   const all = descriptions.map(async (uri) => {
     const content = await read(uri);
     const folder = vscode.Uri.joinPath(uri, '..');
-    const meshes = content ? meshesIn(new TextDecoder().decode(content)).map((steps) => meshOf(folder, steps)) : [];
-    return merged([{ [pathOf(uri)]: content }, ...(await Promise.all(meshes))]);
+    const shapes = content ? shapesIn(new TextDecoder().decode(content)).map((steps) => shapeOf(folder, steps)) : [];
+    return merged([{ [pathOf(uri)]: content }, ...(await Promise.all(shapes))]);
   });
   return merged(await Promise.all(all));
 }
 
-/** What has become of a file: of one that describes what surrounds programs, with the meshes that it names. */
+/** What has become of a file: of one that describes what surrounds programs, with the shapes that it names. */
 export async function changed(uri: vscode.Uri): Promise<Files> {
-  return isDescription(nameOf(uri)) ? withMeshes([uri]) : fileOf(uri);
+  return isDescription(nameOf(uri)) ? withShapes([uri]) : fileOf(uri);
 }
 
-/** The setup beside a program, with its meshes. */
+/** The setup beside a program, with its shapes. */
 export async function setupBeside(uri: vscode.Uri): Promise<Files> {
-  return onlyThere(await withMeshes([vscode.Uri.joinPath(uri, '..', setupNameOf(nameOf(uri)))]));
+  return onlyThere(await withShapes([vscode.Uri.joinPath(uri, '..', setupNameOf(nameOf(uri)))]));
 }
 
-/** The configurations above a file, with their meshes: up to its workspace folder, or in files of this computer up to the root. */
+/** The configurations above a file, with their shapes: up to its workspace folder, or in files of this computer up to the root. */
 export async function configurationsAbove(uri: vscode.Uri): Promise<Files> {
   const end = uri.scheme === 'file' ? '' : (vscode.workspace.getWorkspaceFolder(uri)?.uri.path.replace(/\/$/, '') ?? '');
   const places: vscode.Uri[] = [];
@@ -74,7 +74,7 @@ export async function configurationsAbove(uri: vscode.Uri): Promise<Files> {
     folder = folder.slice(0, folder.lastIndexOf('/'));
     places.push(uri.with({ path: `${folder}/${configuration}`, query: '', fragment: '' }));
   }
-  return onlyThere(await withMeshes(places));
+  return onlyThere(await withShapes(places));
 }
 
 /** Whether a file in a folder is a program, or what a search for programs or their verification looks at. */
@@ -120,7 +120,7 @@ export async function write(files: Record<string, Uint8Array>): Promise<void> {
   for (const [path, content] of Object.entries(files)) await vscode.workspace.fs.writeFile(uriOfPath(path), content);
 }
 
-/** Reports files that the module may look at when they change; `isKnown` tells of a mesh whether one of them names it. */
+/** Reports files that the module may look at when they change; `isKnown` tells of a shape whether one of them names it. */
 export function watch(endings: readonly string[], isKnown: (path: string) => boolean, onChange: (files: Files) => void): vscode.Disposable {
   const watcher = vscode.workspace.createFileSystemWatcher('**/*');
   const look = async (uri: vscode.Uri) => {

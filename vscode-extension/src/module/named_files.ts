@@ -1,4 +1,4 @@
-/** The files that belong to a program without being one: its setup, and the meshes that descriptions of surroundings name. */
+/** The files that belong to a program without being one: its setup, and the files with shapes that descriptions of surroundings name. */
 
 export const setupEnding = '.setup.json';
 
@@ -6,12 +6,12 @@ export const setupEnding = '.setup.json';
 export const setupNameOf = (program: string) => program.replace(/(?<=.)\.[^.]*$/, '') + setupEnding;
 
 /**
- * The STL files that a description names, each as the steps that lead to it from the description's folder. Names that lead
+ * The STL files and stocks that a description names, each as the steps that lead to it from the description's folder. Names that lead
  * elsewhere are left out, as the programs refuse them. What stands in a comment is taken along: a file too many does no harm.
  */
-export function meshesIn(description: string): string[][] {
+export function shapesIn(description: string): string[][] {
   const found = new Map<string, string[]>();
-  for (const [, quoted] of description.matchAll(/"mesh"\s*:\s*("(?:[^"\\\n]|\\.)*")/g)) {
+  for (const [, quoted] of description.matchAll(/"(?:mesh|from)"\s*:\s*("(?:[^"\\\n]|\\.)*")/g)) {
     const steps = stepsOf(text(quoted));
     if (steps) found.set(steps.join('/'), steps);
   }
