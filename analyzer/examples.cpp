@@ -148,14 +148,9 @@ std::vector<simulation::RunFinding> example_run(std::string_view program, Diagno
     machine.motion.axes[0].minimum = 0;
     machine.motion.axes[0].maximum = 1000;
   }
-  static constexpr DiagnosticId kInScene[] = {"hits-fixture"_diag, "hits-machine"_diag, "gouges-part"_diag,
-                                              "near-miss"_diag, "not-verified"_diag};
-  static constexpr DiagnosticId kOfMaterial[] = {
-      "rapid-in-material"_diag, "holder-in-material"_diag, "cuts-with-spindle-stopped"_diag,
-      "material-left"_diag,     "cut-too-deep"_diag,       "cuts-nothing"_diag,
-      "loose-piece"_diag};
-  const bool is_of_material = std::find(std::begin(kOfMaterial), std::end(kOfMaterial), id) != std::end(kOfMaterial);
-  if (!is_of_material && std::find(std::begin(kInScene), std::end(kInScene), id) == std::end(kInScene))
+  const dialect::Evidence evidence = dialect::definition(id).evidence;
+  const bool is_of_material = evidence == dialect::Evidence::Stock;
+  if (evidence == dialect::Evidence::Run && id != "not-verified"_diag)
     return selection::verified_on_paths(program, {}, machine, nullptr).outcome.findings;
   for (int tool = 1; tool <= 4; ++tool)
     if (is_of_material || tool <= 2) machine.tool_lengths[{1, 1, tool}] = 100;
@@ -188,7 +183,7 @@ static std::optional<Example> example_of_run(Cause cause) {
 }
 
 std::optional<Example> example_of(Cause cause) {
-  if (dialect::definition(cause.id).is_reported_by_runs) return example_of_run(cause);
+  if (dialect::definition(cause.id).is_reported_by_runs()) return example_of_run(cause);
   const std::string program = program_of(cause);
   const rules::CheckSetup setup = example_setup(cause.id);
   const check::Report report = example_report(program, cause.id);

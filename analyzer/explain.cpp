@@ -29,7 +29,7 @@ static std::string severity_text(const DiagnosticDef& def, Language language) {
   static constexpr Text kRuns = {", reported by isorun and isolint --verify",
                                  ", segnalato da isorun e isolint --verify"};
   return fmt::format("{}{}{}", dialect::severity_name(def.severity, language), def.is_off ? kOff.in(language) : "",
-                     def.is_reported_by_runs ? kRuns.in(language) : "");
+                     def.is_reported_by_runs() ? kRuns.in(language) : "");
 }
 
 /// The text folded at 78 columns, its first line after `first_indent`, the others after `indent`; a UTF-8 letter counts

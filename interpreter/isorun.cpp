@@ -263,7 +263,7 @@ struct CheckedRun {
 void print_findings(const RunCommandOptions& options, const CheckedRun& run) {
   syntax::LineFinder lines(run.program);
   for (const check::LocatedFinding& located : run.report.findings) {
-    const bool is_in_summary = !dialect::definition(located.finding.id).is_reported_by_runs;
+    const bool is_in_summary = !dialect::definition(located.finding.id).is_reported_by_runs();
     if (located.finding.id == "not-verified"_diag) continue;  // The error that it is about is printed.
     if (is_in_summary && located.severity() != dialect::Severity::Error) continue;
     print_finding(options, located.line, located.finding.id, located.severity(),

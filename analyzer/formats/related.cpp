@@ -98,10 +98,17 @@ std::optional<RelatedPlace> RelatedPlaces::of(const check::LocatedFinding& locat
 
 std::vector<RunPlace> run_places(const check::LocatedFinding& located, dialect::Language language) {
   static constexpr dialect::Text kLasts = {"it lasts until here", "dura fino a qui"};
+  static constexpr dialect::Text kCutLast = {"what is met was last cut here",
+                                             "ciò che si incontra è stato tagliato per ultimo qui"};
+  static constexpr dialect::Text kStopped = {"the spindle was stopped here", "il mandrino è stato fermato qui"};
   static constexpr dialect::Text kDescribed = {"{} is described here", "{} è descritto qui"};
   std::vector<RunPlace> places;
   if (located.last_line)
     places.push_back({.file = {}, .line = *located.last_line + 1, .note = std::string(kLasts.in(language))});
+  if (located.shaped_by) {
+    const dialect::Text& note = located.finding.id == "cuts-with-spindle-stopped"_diag ? kStopped : kCutLast;
+    places.push_back({.file = {}, .line = *located.shaped_by + 1, .note = std::string(note.in(language))});
+  }
   if (const dialect::GivenPlace described = located.finding.described) {
     const dialect::FilePlace& place = described.place();
     places.push_back({.file = place.file,

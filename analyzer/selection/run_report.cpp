@@ -38,7 +38,8 @@ Report with_run(Report found, const simulation::RunOutcome& run) {
                               .path = each.path < 0 ? LocatedFinding::kEveryPath : first_path + each.path,
                               .mistake = each.mistake < 0 ? -1 : mistakes + each.mistake,
                               .is_of_run = true,
-                              .last_line = each.last_line});
+                              .last_line = each.last_line,
+                              .shaped_by = each.shaped_by});
   }
   std::inplace_merge(found.findings.begin(), found.findings.begin() + middle, found.findings.end(), by_place);
   return found;
@@ -79,12 +80,10 @@ static LookedFor looked_for_by(const simulation::RunOutcome& run) {
     return each.finding.id == "not-verified"_diag;
   });
   return [&run, is_whole](dialect::DiagnosticId id, std::optional<std::size_t> line) {
-    const bool takes_scene =
-        id == "hits-fixture"_diag || id == "hits-machine"_diag || id == "near-miss"_diag || id == "gouges-part"_diag;
-    const bool takes_stock = id == "rapid-in-material"_diag || id == "holder-in-material"_diag ||
-                             id == "cuts-with-spindle-stopped"_diag || id == "material-left"_diag ||
-                             id == "cut-too-deep"_diag || id == "cuts-nothing"_diag || id == "loose-piece"_diag;
-    if (!is_whole || (takes_scene && !run.has_scene) || (takes_stock && !run.has_stock)) return false;
+    const dialect::Evidence evidence = dialect::definition(id).evidence;
+    if (!is_whole || (evidence == dialect::Evidence::Scene && !run.has_scene) ||
+        (evidence == dialect::Evidence::Stock && !run.has_stock))
+      return false;
     return !line || std::any_of(run.runs.begin(), run.runs.end(),
                                 [&](const simulation::TakenPath& taken) { return taken.has_executed(*line); });
   };

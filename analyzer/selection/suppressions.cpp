@@ -155,7 +155,7 @@ void Suppressions::drop_suppressed(std::vector<check::LocatedFinding>& findings)
 void Suppressions::keep_directives_for_unchecked_codes(const Selection& selection, const LookedFor& by_run) {
   const auto is_looked_for = [&](DiagnosticId id, const Directive& directive) {
     if (!selection.shows(id)) return false;
-    if (!dialect::definition(id).is_reported_by_runs) return true;
+    if (!dialect::definition(id).is_reported_by_runs()) return true;
     return by_run && by_run(id, directive.kind == Kind::Ignore ? std::optional(directive.line) : std::nullopt);
   };
   for (Directive& directive : directives_)

@@ -30,6 +30,14 @@ enum class FoldKind : std::uint8_t {
 };
 inline constexpr int kFoldCount = 4;
 
+/// What shows a finding.
+enum class Evidence : std::uint8_t {
+  Text,   ///< The text of the program.
+  Run,    ///< A run alone: of isorun, or of isolint with --verify.
+  Scene,  ///< A run in a setup, or with bodies of the machine.
+  Stock,  ///< A run in a setup that describes a stock.
+};
+
 /// Maximum number of values in one message.
 inline constexpr int kMaxArguments = 6;
 
@@ -54,8 +62,8 @@ struct DiagnosticDef {
   std::string_view code;  ///< `ISO012`, `E004`, `W001`: stable; used in selections and suppressions.
   std::string_view name;  ///< `head-not-selected`: stable; used in the code and by readers.
   Severity severity = Severity::Error;
-  bool is_off = false;                        ///< Reported only if selected by the user.
-  bool is_reported_by_runs = false;           ///< Only a run shows it: isorun, and isolint with --verify.
+  bool is_off = false;  ///< Reported only if selected by the user.
+  Evidence evidence = Evidence::Text;
   FoldKind folds = FoldKind::None;            ///< The mistake that may repeat it on the lines below.
   std::string_view section;                   ///< Section of the specification: `I.4.3`.
   std::string_view arguments[kMaxArguments];  ///< Names of the values, in the order in which they are reported.
@@ -65,6 +73,8 @@ struct DiagnosticDef {
   Text explanation;        ///< Why the control stops and what to do; the first sentence can be read alone.
   std::string_view wrong;  ///< A program with this one finding; `[!` and `!]` enclose the marked text.
   std::string_view right;  ///< The same program, corrected; it has no finding.
+
+  constexpr bool is_reported_by_runs() const { return evidence != Evidence::Text; }
 };
 
 }  // namespace isocnc::dialect

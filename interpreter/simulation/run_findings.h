@@ -29,7 +29,9 @@ struct RunFinding {
   syntax::Finding finding;
   std::int32_t mistake = -1;             ///< Findings with the same number have the same cause (D66); -1: alone.
   std::optional<std::size_t> last_line;  ///< Where it ends, if below `line`; from 0.
-  std::int32_t path = -1;                ///< An index into RunOutcome::paths; -1: the path of the first run has it.
+  std::optional<std::size_t>
+      shaped_by;           ///< The line that has cut last what is hit, or has stopped the spindle; from 0.
+  std::int32_t path = -1;  ///< An index into RunOutcome::paths; -1: the path of the first run has it.
 
   friend bool operator==(const RunFinding&, const RunFinding&) = default;
 };

@@ -85,6 +85,7 @@ static std::vector<Contact> shown_contacts(const std::vector<Contact>& contacts)
       first.enough = first.frame.to_inner(contact.frame.to_outer({place.x(), place.y(), *contact.enough})).z();
     }
     first.who = contact.who;
+    first.shaped_by = contact.shaped_by;
     first.distance = contact.distance;
     first.point = contact.point;
   }
@@ -101,7 +102,8 @@ static void add_findings(simulation::RunOutcome& outcome, const std::vector<Cont
     found.push_back({.line = contact.line,
                      .finding = finding_of(contact),
                      .mistake = mistakes + contact.mistake,
-                     .last_line = contact.end_line > contact.line ? std::optional(contact.end_line) : std::nullopt});
+                     .last_line = contact.end_line > contact.line ? std::optional(contact.end_line) : std::nullopt,
+                     .shaped_by = contact.shaped_by == contact.line ? std::nullopt : contact.shaped_by});
   for (const Unverified& gap : certificate.gaps) found.push_back({.line = gap.line, .finding = finding_of(gap)});
   const auto by_line = [](const RunFinding& a, const RunFinding& b) { return a.line < b.line; };
   std::stable_sort(found.begin(), found.end(), by_line);

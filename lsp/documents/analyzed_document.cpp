@@ -228,7 +228,7 @@ check::FirstFindings AnalyzedDocument::run_excerpt() {
 
 /// Whether the check of the text has found the same on that line.
 bool AnalyzedDocument::is_known(const simulation::RunFinding& of_run) const {
-  if (dialect::definition(of_run.finding.id).is_reported_by_runs) return false;
+  if (dialect::definition(of_run.finding.id).is_reported_by_runs()) return false;
   const std::vector<check::LocatedFinding> known = analysis_->findings_on(of_run.line);
   return std::any_of(known.begin(), known.end(),
                      [&](const check::LocatedFinding& located) { return located.finding.id == of_run.finding.id; });

@@ -44,36 +44,38 @@ KeptRun::KeptRun(simulation::RunOutcome outcome) : outcome_(std::move(outcome)) 
 void KeptRun::replace_lines(std::size_t first, std::size_t removed, std::size_t inserted) {
   const std::size_t after = first + removed;  // The first line that moves.
   const auto is_replaced = [&](std::size_t line) { return line >= first && line < after; };
+  const auto moved = [&](std::size_t line) { return line < after ? line : line - removed + inserted; };
+  // Of a line that an edit may have taken away.
+  const auto moved_if_kept = [&](const std::optional<std::size_t>& line) {
+    return !line || is_replaced(*line) ? std::nullopt : std::optional(moved(*line));
+  };
   // Findings to which an edited jump leads are about that line, too.
   std::vector<bool> is_path_lost;
   for (std::vector<RunDecision>& path : outcome_.paths) {
     is_path_lost.push_back(
         std::any_of(path.begin(), path.end(), [&](const auto& step) { return is_replaced(step.line); }));
-    for (RunDecision& step : path)
-      if (step.line >= after) step.line = step.line - removed + inserted;
+    for (RunDecision& step : path) step.line = moved(step.line);
   }
   std::erase_if(outcome_.findings, [&](const RunFinding& each) {
     return is_replaced(each.line) || (each.path >= 0 && is_path_lost[static_cast<std::size_t>(each.path)]);
   });
   for (RunFinding& each : outcome_.findings) {
-    if (each.line >= after) each.line = each.line - removed + inserted;
-    if (!each.last_line || *each.last_line < first) continue;
-    each.last_line = *each.last_line < after ? std::nullopt : std::optional(*each.last_line - removed + inserted);
+    each.line = moved(each.line);
+    each.last_line = moved_if_kept(each.last_line);
+    each.shaped_by = moved_if_kept(each.shaped_by);
   }
   std::erase_if(outcome_.removed, [&](const simulation::RemovedOnLine& each) { return is_replaced(each.line); });
-  for (simulation::RemovedOnLine& each : outcome_.removed)
-    if (each.line >= after) each.line = each.line - removed + inserted;
+  for (simulation::RemovedOnLine& each : outcome_.removed) each.line = moved(each.line);
   for (TakenPath& run : outcome_.runs) {
     std::vector<std::pair<std::size_t, std::size_t>> executed;
     executed.reserve(run.executed.size() + 1);
     for (const auto& [begin, last] : run.executed) {
       if (begin < first) executed.emplace_back(begin, std::min(last, first - 1));
-      if (last >= after) executed.emplace_back(std::max(begin, after) - removed + inserted, last - removed + inserted);
+      if (last >= after) executed.emplace_back(moved(std::max(begin, after)), moved(last));
     }
     run.executed = std::move(executed);
     std::erase_if(run.decisions, [&](const RunDecision& each) { return is_replaced(each.line); });
-    for (RunDecision& each : run.decisions)
-      if (each.line >= after) each.line = each.line - removed + inserted;
+    for (RunDecision& each : run.decisions) each.line = moved(each.line);
   }
 }
 

@@ -192,10 +192,10 @@ TEST(GoldenCoverage, EveryCodeIsShown) {
     for (const Part& part : read_golden(file))
       for (const ExpectedFinding& finding : part.findings) ++shown_codes[finding.code];
   for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) {
-    if (def.code.starts_with("W1") && !def.is_reported_by_runs) continue;
+    if (def.code.starts_with("W1") && !def.is_reported_by_runs()) continue;
     EXPECT_GE(shown_codes[std::string(def.code)], 2) << def.code << " has too few positives";
     EXPECT_TRUE(std::filesystem::exists(fmt::format("{}/tests/programs/{}/{}.iso", ISOCNC_SOURCE_DIR,
-                                                    def.is_reported_by_runs ? "runs" : "codes", def.code)))
+                                                    def.is_reported_by_runs() ? "runs" : "codes", def.code)))
         << def.code;
   }
 }

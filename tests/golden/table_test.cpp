@@ -59,7 +59,7 @@ TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
   ASSERT_TRUE(wrong.has_mark);
   const std::string mark = std::string(def.code) + "@" + std::to_string(wrong.line + 1) + ":" +
                            std::to_string(wrong.begin) + "-" + std::to_string(wrong.end) + " ";
-  if (def.is_reported_by_runs) {
+  if (def.is_reported_by_runs()) {
     EXPECT_EQ(codes_of_run(wrong.text, cause.id), mark) << wrong.text;
     return;
   }
@@ -74,7 +74,7 @@ TEST_P(Table, RightProgramHasNone) {
   const DiagnosticDef& def = definition(GetParam().id);
   const std::string_view right = def.right.empty() ? "M02\n" : def.right;
   EXPECT_EQ(codes_of(reported_in(right, GetParam().id)), "") << right;
-  if (def.is_reported_by_runs) {
+  if (def.is_reported_by_runs()) {
     EXPECT_EQ(codes_of_run(right, GetParam().id), "") << right;
   }
 }

@@ -47,7 +47,9 @@ class Material : public testing::Test {
   }
 
   void start(const std::string& language = "en") {
-    session_.start({{"workspace", {{"codeLens", {{"refreshSupport", true}}}}}}, {{"locale", language}});
+    session_.start({{"workspace", {{"codeLens", {{"refreshSupport", true}}}}},
+                    {"textDocument", {{"publishDiagnostics", {{"relatedInformation", true}}}}}},
+                   {{"locale", language}});
   }
   void open(const std::string& text) { session_.open(uri_, text, ++version_); }
   std::string hover(int line) {
@@ -97,6 +99,28 @@ TEST_F(Material, IsNotToldOfAnEditedText) {
   session_.edit(uri_, ++version_, {change(3, 0, 3, 0, " ")});
   EXPECT_THAT(hover(10), Not(HasSubstr("removes")));
   EXPECT_THAT(lenses(), ElementsAre(Not(HasSubstr("removes")), Not(HasSubstr("removes"))));
+  runs_.release();
+}
+
+/// A rapid goes into what the line above has left. The relation goes along with its line, and away with it.
+TEST_F(Material, LeadsToTheLineThatShapedIt) {
+  start();
+  open("M06 T101001\nS12000 M03\nG00 X40 Y-20\nZ-4\nG01 Y120 F2000\nG00 Y50\nZ-6\nZ50\nM05\nM02\n");
+  session_.wait_for("workspace/codeLens/refresh");
+  runs_.hold();
+  const auto shaped_by = [&]() -> int {
+    for (const Json& each : session_.diagnostics(uri_, version_)) {
+      if (each.value("code", "") != "E150" || !each.contains("relatedInformation")) continue;
+      for (const Json& related : each["relatedInformation"])
+        if (related["message"] == "what is met was last cut here") return related["location"]["range"]["start"]["line"];
+    }
+    return -1;
+  };
+  const auto edit = [&](const Json& step) { session_.edit(uri_, ++version_, {step}); };
+  edit(change(0, 0, 0, 0, "; a comment\n"));
+  EXPECT_EQ(shaped_by(), 5);
+  edit(change(5, 5, 5, 8, "119"));
+  EXPECT_EQ(shaped_by(), -1);
   runs_.release();
 }
 
