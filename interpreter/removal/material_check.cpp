@@ -64,16 +64,18 @@ void MaterialCheck::take(const simulation::TimedEvent& event) {
 
 void MaterialCheck::take(const motion::Stretch& stretch, const simulation::TimedEvent& event,
                          const geometry::Frame& frame) {
+  take_part(stretch, event, frame, stretch.phases[0].from, stretch.parameter_at(stretch.start + stretch.duration));
+}
+
+void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::TimedEvent& event,
+                              const geometry::Frame& frame, double from, double to) {
   if (!forms_ || !event.move) return;
   const bool is_feed = event.move->feed.kind != kinematics::FeedKind::Rapid;
   last_frame_ = frame;
   if (frames_.empty() || !(frames_.back() == frame)) frames_.push_back(frame);
   waiting_.push_back({.stretch = stretch, .line = event.event.line, .frame = frames_.size() - 1, .is_feed = is_feed});
-  const double begin = stretch.phases[0].from;
-  const double end = stretch.parameter_at(stretch.start + stretch.duration);
   pieces_.clear();
-  append_tip_paths(machine_.motion.kinematics, stretch.path, begin, end, forms_->reach(), stock_.spacing() / 40,
-                   pieces_);
+  append_tip_paths(machine_.motion.kinematics, stretch.path, from, to, forms_->reach(), stock_.spacing() / 40, pieces_);
   if (watcher_) show_moments(stretch);
   for (TipPath& piece : pieces_) {
     waiting_.back().length += length_of(piece.path);
@@ -572,6 +574,29 @@ void MaterialCheck::look_for_loose_pieces() {
     incident.end_time = incident.time;
     keep(incident);
   }
+}
+
+void MaterialCheck::forget_past() {
+  incidents_.clear();
+  left_out_ = 0;
+  looked_at_ = 0;
+  by_line_.clear();
+}
+
+std::vector<Incident> MaterialCheck::incidents_so_far() const {
+  std::vector<Incident> all = incidents_;
+  for (const auto& [key, episode] : open_) all.push_back(episode.incident);
+  std::stable_sort(all.begin(), all.end(), [](const Incident& a, const Incident& b) { return a.time < b.time; });
+  drop_said_twice(all);
+  return all;
+}
+
+bool MaterialCheck::is_hitting() const {
+  return std::any_of(open_.begin(), open_.end(), [&](const auto& each) {
+    const IncidentKind kind = each.first.first;
+    const bool is_hit = kind == IncidentKind::RapidInMaterial || kind == IncidentKind::BodyInMaterial;
+    return is_hit && each.second.last_stretch + 1 >= cut_;
+  });
 }
 
 void MaterialCheck::finish() {

@@ -33,17 +33,30 @@ class MaterialCheck {
   void mount(const execution::ToolCode& code, const CuttingTool& tool);
   /// Takes a stretch of motion, with its event and the frame in force.
   void take(const motion::Stretch& stretch, const simulation::TimedEvent& event, const geometry::Frame& frame);
+  /// Takes the part of a stretch from one path parameter to another.
+  void take_part(const motion::Stretch& stretch, const simulation::TimedEvent& event, const geometry::Frame& frame,
+                 double from, double to);
   /// Takes an event that has been made.
   void take(const simulation::TimedEvent& event);
   /// Ends the run.
   void finish();
+
+  // For a run that goes back, too. A copy that is made while nothing waits goes on by itself, and shares the stock.
+  /// Cuts what waits.
+  void settle() { cut_waiting(); }
+  /// Forgets what has been noted of lines and of incidents that are over, so that a copy takes little.
+  void forget_past();
+  /// After settle(): the incidents since forget_past(), and those that may go on, by time and as they are known so far.
+  std::vector<Incident> incidents_so_far() const;
+  /// After settle(): whether a rapid, a shank, a holder or the nose is in material at the end of the last stretch.
+  bool is_hitting() const;
 
   /// After finish(): by time.
   const std::vector<Incident>& incidents() const { return incidents_; }
   std::size_t left_out() const { return left_out_; }  ///< Incidents beyond those that are kept.
   /// After finish(), in the order of their first use.
   const std::vector<RemovedByTool>& removed_by_tool() const { return by_tool_; }
-  /// After finish(): lines that removed something, in the order of the run.
+  /// After finish() or settle(): lines that removed something, in the order of the run.
   const std::vector<RemovedByLine>& removed_by_line() const { return by_line_; }
   const stock::Stock& stock() const { return stock_; }  ///< In the frame of the setup.
   /// How much thinner bodies count than they are, all around, mm: what a cut may leave beside its body.
