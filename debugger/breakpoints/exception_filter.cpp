@@ -19,8 +19,10 @@ static constexpr std::array<ExceptionFilterDef, kExceptionFilterCount> kExceptio
                      "Prima dei movimenti che portano un asse oltre la corsa"}},
     {.name = "contacts",
      .label = {"Contacts", "Contatti"},
-     .description = {"Where the machine touches a fixture, the finished part or itself, inside the block",
-                     "Dove la macchina tocca un'attrezzatura, il pezzo finito o se stessa, dentro il blocco"},
+     .description = {"Where the machine touches a fixture, the finished part, itself or, in rapid, with its holder or "
+                     "with the spindle stopped, the material, inside the block",
+                     "Dove la macchina tocca un'attrezzatura, il pezzo finito, se stessa o, in rapido, con il "
+                     "portautensile o a mandrino fermo, il materiale, dentro il blocco"},
      .takes_condition = true},
     {.name = "run",
      .label = {"Findings of the machine", "Segnalazioni della macchina"},

@@ -115,6 +115,30 @@ std::optional<std::uint64_t> Debuggee::find_simulated_back(std::uint64_t from, s
   });
 }
 
+void Debuggee::pass_blocks(std::optional<std::uint64_t> from, std::uint64_t blocks,
+                           const std::function<void(Simulation&)>& pass_block,
+                           const std::function<void(Simulation&)>& pass_by_hand) const {
+  for (std::size_t i = 0; i < parts_.size() && parts_[i].first_block <= blocks; ++i) {
+    const Part& part = parts_[i];
+    if (part.by_hand && (!from || part.first_block > *from)) {
+      Simulation simulation = *part.by_hand->begin;
+      pass_by_hand(simulation);
+    }
+    const std::uint64_t begin = std::max(from.value_or(0), part.first_block);
+    const std::uint64_t end = i + 1 < parts_.size() ? std::min(blocks, parts_[i + 1].first_block) : blocks;
+    const auto pass = [&](Simulation& simulation) {
+      pass_block(simulation);
+      return false;
+    };
+    if (begin < end) part.history.find_simulated_before(end, pass, begin);
+  }
+}
+
+bool Debuggee::is_run_by_hand_at(std::uint64_t blocks) const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [&](const Part& part) { return part.by_hand && part.first_block == blocks; });
+}
+
 std::optional<Hindrance> Debuggee::hindrance() const {
   if (present().has_ended()) return Hindrance::HasEnded;
   if (present().is_in_block()) return Hindrance::InBlock;
@@ -182,13 +206,17 @@ void Debuggee::take_over(const Simulation& by_hand) {
   begin_part(by_hand, runner, machine());
 }
 
+Debuggee::HandRun::HandRun(std::shared_ptr<const std::string> blocks, const RunOptions& run)
+    : text(std::move(blocks)), program(*text), options(run) {
+  options.until = ProgramText(*text).line_count() - 1;
+}
+
 MdiOutcome Debuggee::run_by_hand(std::string_view text) {
   // The last line is one to stop before: without it the text would lack an M02.
   MdiOutcome outcome{.events = {}, .error = {}, .text = std::make_shared<const std::string>(std::string(text) + "\n;")};
-  const Program program(*outcome.text);
-  RunOptions options = *options_;
-  options.until = ProgramText(*outcome.text).line_count() - 1;
-  Simulation simulation = simulation_of(program, options);
+  const auto run = std::make_shared<HandRun>(outcome.text, *options_);
+  run->begin = simulation_of(run->program, run->options);
+  Simulation simulation = *run->begin;
   while (!simulation.has_ended()) {
     simulation.step_block();
     const auto events = simulation.runner().events();
@@ -199,6 +227,7 @@ MdiOutcome Debuggee::run_by_hand(std::string_view text) {
     outcome.events.clear();
   } else {
     take_over(simulation);
+    parts_.back().by_hand = run;
   }
   return outcome;
 }

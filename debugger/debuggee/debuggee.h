@@ -71,6 +71,17 @@ class Debuggee {
   std::optional<std::uint64_t> find_simulated_back(
       std::uint64_t from, std::uint64_t blocks, const std::function<bool(simulation::Simulation&)>& pass_block) const;
 
+  /// Takes simulations through the blocks [from, blocks), in their order: `pass_block` gets the simulation before each
+  /// of them and takes it to the end of the block. `pass_by_hand` gets each simulation of what has been run by hand
+  /// where more than `from` blocks had been executed and at most `blocks`, and takes it to its end. Without `from`,
+  /// what has been run by hand before the first block counts, too. The blocks may be still to come.
+  void pass_blocks(std::optional<std::uint64_t> from, std::uint64_t blocks,
+                   const std::function<void(simulation::Simulation&)>& pass_block,
+                   const std::function<void(simulation::Simulation&)>& pass_by_hand) const;
+
+  /// Whether blocks have been run by hand where this many of the program had been executed.
+  bool is_run_by_hand_at(std::uint64_t blocks) const;
+
   void set_register(int number, double value) { history().set_register(number, value); }
   void set_vgpl(double value) { history().set_vgpl(value); }
 
@@ -87,6 +98,16 @@ class Debuggee {
   MdiOutcome run_by_hand(std::string_view text);
 
  private:
+  /// Blocks that have been run by hand.
+  struct HandRun {
+    HandRun(std::shared_ptr<const std::string> blocks, const running::RunOptions& run);
+
+    std::shared_ptr<const std::string> text;
+    running::Program program;
+    running::RunOptions options;
+    std::optional<simulation::Simulation> begin;
+  };
+
   void set_state(const execution::State& state);
   /// The history from a change of the machine by hand, or from the start, to the next change.
   struct Part {
@@ -94,6 +115,7 @@ class Debuggee {
     simulation::History history;
     std::uint64_t first_block = 0;
     std::size_t first_line = 0;
+    std::shared_ptr<const HandRun> by_hand = {};  ///< What has led to its start; or null.
   };
 
   simulation::History& history() { return parts_.back().history; }

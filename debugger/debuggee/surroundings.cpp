@@ -23,14 +23,37 @@ const verification::Scene* Surroundings::scene() const {
   return scene_->get();
 }
 
+const geometry::Vec3& Surroundings::origin() const {
+  if (!origin_) origin_ = find_origin_();
+  return *origin_;
+}
+
+/// None without a blank, and where it would take too much memory.
+const std::optional<removal::Workpiece>& Surroundings::workpiece() const {
+  if (!workpiece_) {
+    workpiece_.emplace();
+    if (are_known()) *workpiece_ = verification::workpiece_of(*scene(), origin(), {});
+    if (*workpiece_ && verification::coarser_spacing(**workpiece_)) workpiece_->reset();
+  }
+  return *workpiece_;
+}
+
+MaterialHistory* Surroundings::material() const {
+  if (!material_ && has_material()) material_.emplace(debuggee_, *scene(), *workpiece());
+  return material_ ? &*material_ : nullptr;
+}
+
+void Surroundings::forget_from(std::uint64_t blocks) {
+  if (material_) material_->forget_from(blocks);
+}
+
 const BodyPairs& Surroundings::bodies_with(const execution::ToolCode& tool,
                                            const simulation::TimedMachine& machine) const {
   const auto known = bodies_.find(tool);
   if (known != bodies_.end()) return known->second;
-  if (!origin_) origin_ = find_origin_();
   return bodies_
       .emplace(tool, verification::pairs_of(*scene(), machine.motion.kinematics,
-                                            verification::mounted_tool(*scene(), machine, tool), *origin_))
+                                            verification::mounted_tool(*scene(), machine, tool), origin()))
       .first->second;
 }
 
@@ -69,14 +92,14 @@ class BlockPass {
       : surroundings_(surroundings), wanted_(wanted), machine_(before.machine()), tool_(before.tool()) {
     if (const Stretch* const stretch = before.stretch_before()) stretch_before_ = *stretch;
     for (const SurroundingsLimit& limit : wanted.limits)
-      was_beyond_.push_back(limit.is_beyond(surroundings.neighbors_of(before)));
+      was_beyond_.push_back(limit.is_of_material() || limit.is_beyond(surroundings.neighbors_of(before)));
   }
 
-  void take(const running::Event& event, const Stretch* stretch) {
-    if (stretch != nullptr) {
-      stretches_.push_back(*stretch);
-      lines_.push_back(event.line);
-    } else if (const auto* const change = std::get_if<running::ToolEvent>(&event.what)) {
+  void take(const RecordedPiece& piece) {
+    if (piece.stretch) {
+      stretches_.push_back(*piece.stretch);
+      lines_.push_back(piece.timed.event.line);
+    } else if (const auto* const change = std::get_if<running::ToolEvent>(&piece.timed.event.what)) {
       examine();
       tool_ = change->tool;
       changes_tool_ = true;
@@ -102,11 +125,17 @@ class BlockPass {
     if (wanted_.contacts) find_contacts(bodies);
     for (const Stretch& stretch : stretches_)
       for (std::size_t i = 0; i < wanted_.limits.size(); ++i)
-        for (const double time : crossings_of(wanted_.limits[i], stretch, bodies, machine_.motion.kinematics))
+        for (const double time : crossings_on(wanted_.limits[i], stretch, bodies))
           passed_.crossings.push_back({.time = time, .limit = i});
     stretch_before_ = stretches_.back();
     stretches_.clear();
     lines_.clear();
+  }
+
+  std::vector<double> crossings_on(const SurroundingsLimit& limit, const Stretch& stretch,
+                                   const BodyPairs& bodies) const {
+    if (limit.is_of_material()) return {};
+    return crossings_of(limit, stretch, bodies, machine_.motion.kinematics);
   }
 
   /// The encounters of stretches that are contacts.
@@ -146,6 +175,12 @@ class BlockPass {
   Surroundings::PassedBlock passed_;
 };
 
+/// Whether it matters what a block does to the material.
+static bool wants_material(const Surroundings::BlockSearch& wanted) {
+  return wanted.contacts || std::any_of(wanted.limits.begin(), wanted.limits.end(),
+                                        [](const SurroundingsLimit& limit) { return limit.is_of_material(); });
+}
+
 Surroundings::PassedBlock Surroundings::pass_block(Simulation& simulation, const BlockSearch& wanted) const {
   if (!are_known()) {
     simulation.step_block();
@@ -154,8 +189,15 @@ Surroundings::PassedBlock Surroundings::pass_block(Simulation& simulation, const
   const bool was_in_block = simulation.is_in_block();
   const double time = simulation.time();
   BlockPass block(*this, wanted, simulation);
-  simulation.trace_stretches([&](const running::Event& event, const Stretch* stretch) { block.take(event, stretch); });
+  const BlockRecord record = record_block(simulation);
+  for (const RecordedPiece& piece : record.pieces) block.take(piece);
   PassedBlock passed = block.finish(simulation);
+  if (MaterialHistory* const material = wants_material(wanted) ? this->material() : nullptr) {
+    const auto answers = material->examine(was_in_block ? material->record_of(record.block) : record,
+                                           {.contacts = wanted.contacts, .limits = wanted.limits});
+    passed.contacts.insert(passed.contacts.end(), answers.contacts.begin(), answers.contacts.end());
+    passed.crossings.insert(passed.crossings.end(), answers.crossings.begin(), answers.crossings.end());
+  }
   if (!was_in_block) return passed;
   const auto is_past = [time](const auto& each) { return !(each.time > time); };
   std::erase_if(passed.contacts, is_past);

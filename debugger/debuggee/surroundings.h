@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "debugger/debuggee/material_history.h"
 #include "debugger/debuggee/surroundings_limit.h"
 #include "interpreter/simulation/simulation.h"
 #include "interpreter/verification/contact.h"
@@ -14,9 +16,10 @@
 
 namespace isocnc::debuggee {
 
-/// What surrounds the machine: how near it is to each obstacle, and when it touches one. Everything is judged as the
-/// machine moves now, whatever has been changed by hand. The scene is loaded when it is first asked for. The setup
-/// stays where the run as it was launched has it.
+/// What surrounds the machine: how near it is to each obstacle, when it touches one, and what remains of the blank.
+/// Everything is judged as the machine moves now, whatever has been changed by hand. The scene is loaded when it is
+/// first asked for, and nothing is cut before somebody asks about material. The setup stays where the run as it was
+/// launched has it.
 class Surroundings {
  public:
   /// Loads the scene; null if nothing is known of the surroundings.
@@ -24,8 +27,9 @@ class Surroundings {
   /// Finds the origin of the setup's frame; machine frame, mm.
   using FindOrigin = std::function<geometry::Vec3()>;
 
-  /// Both are called once, when they are needed.
-  Surroundings(LoadScene load, FindOrigin find_origin) : load_(std::move(load)), find_origin_(std::move(find_origin)) {}
+  /// Refers to the debuggee. Both functions are called once, when they are needed.
+  Surroundings(const Debuggee& debuggee, LoadScene load, FindOrigin find_origin)
+      : debuggee_(debuggee), load_(std::move(load)), find_origin_(std::move(find_origin)) {}
   Surroundings(const Surroundings&) = delete;
   Surroundings& operator=(const Surroundings&) = delete;
 
@@ -42,11 +46,19 @@ class Surroundings {
   /// How deep the machine is in an obstacle, mm; 0 if it is in none, NaN without a scene.
   double depth_of(const simulation::Simulation& simulation) const;
 
+  /// Whether there is a blank to be cut.
+  bool has_material() const { return workpiece().has_value(); }
+  /// What remains of it; null without a blank. Moments are those of simulations of the debuggee's run.
+  MaterialHistory* material() const;
+  /// The run has been changed where this many blocks had been executed.
+  void forget_from(std::uint64_t blocks);
+
   /// What happens on the way through a block.
   struct PassedBlock {
     /// Contacts that begin, by time, each with the depth that it reaches in this block.
     std::vector<verification::Contact> contacts;
-    /// Where the machine comes to be beyond one of the limits: within a motion, or at the end of a tool change.
+    /// Where the machine comes to be beyond one of the limits: within a motion, at the end of a tool change or, for
+    /// limits of the material, at the begin of a block.
     std::vector<LimitCrossing> crossings;
   };
   /// What is looked for in a block.
@@ -56,7 +68,7 @@ class Surroundings {
   };
   /// Takes the simulation to the end of the block in progress or, between two blocks, of the next one. An obstacle that
   /// the stretch before touches is no new contact; a tool that is mounted in an obstacle touches it when it is moved
-  /// next.
+  /// next. Contacts with the material are those of error severity, as a verification tells them.
   PassedBlock pass_block(simulation::Simulation& simulation, const BlockSearch& wanted) const;
 
  private:
@@ -70,15 +82,20 @@ class Surroundings {
   };
 
   const verification::Scene* scene() const;
+  const geometry::Vec3& origin() const;
+  const std::optional<removal::Workpiece>& workpiece() const;
   const verification::BodyPairs& bodies_with(const execution::ToolCode& tool,
                                              const simulation::TimedMachine& machine) const;
 
+  const Debuggee& debuggee_;
   LoadScene load_;
   FindOrigin find_origin_;
   mutable std::optional<std::shared_ptr<const verification::Scene>> scene_;  ///< None before it has been loaded.
   mutable std::optional<geometry::Vec3> origin_;                             ///< None before it has been found.
   mutable std::map<execution::ToolCode, verification::BodyPairs> bodies_;
   mutable std::optional<KnownPose> last_;
+  mutable std::optional<std::optional<removal::Workpiece>> workpiece_;  ///< None before it has been asked for.
+  mutable std::optional<MaterialHistory> material_;                     ///< None before it has been asked for.
 };
 
 }  // namespace isocnc::debuggee

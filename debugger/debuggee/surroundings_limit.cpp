@@ -10,8 +10,12 @@ namespace isocnc::debuggee {
 
 using verification::Neighbor;
 
+/// mm, or mm^3.
+static constexpr double kSurely = 1e-6;
+
 double SurroundingsLimit::margin(const std::vector<Neighbor>& neighbors) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
+  const bool is_of_depth = of == LimitedQuantity::Depth;
   double nearest = kFar;
   for (const Neighbor& each : neighbors) nearest = std::min(nearest, is_of_depth ? each.distance : each.clearance);
   if (!is_of_depth) return is_from_below ? value - nearest : nearest - value;
@@ -19,9 +23,10 @@ double SurroundingsLimit::margin(const std::vector<Neighbor>& neighbors) const {
   return is_from_below ? nearest + value : -value - nearest;
 }
 
-bool SurroundingsLimit::is_beyond(const std::vector<Neighbor>& neighbors) const {
-  constexpr double kSurely = 1e-6;
-  return margin(neighbors) < -kSurely;
+bool SurroundingsLimit::is_beyond(const std::vector<Neighbor>& neighbors) const { return margin(neighbors) < -kSurely; }
+
+bool SurroundingsLimit::is_beyond(double number) const {
+  return is_either_way || (is_from_below ? number > value + kSurely : number < value - kSurely);
 }
 
 std::vector<double> crossings_of(const SurroundingsLimit& limit, const motion::Stretch& stretch,

@@ -233,7 +233,7 @@ bool Expression::is_constant() const {
 
 bool Expression::reads_surroundings() const {
   return std::any_of(code_.begin(), code_.end(),
-                     [](const auto& each) { return each.quantity != nullptr && each.quantity->is_of_surroundings; });
+                     [](const auto& each) { return each.quantity != nullptr && each.quantity->limited.has_value(); });
 }
 
 /// What follows the comma: `x`, `2`. None where it is no format.

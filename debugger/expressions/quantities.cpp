@@ -86,6 +86,18 @@ static double read_depth(const Moment& moment, int) {
   if (moment.machine == nullptr || moment.surroundings == nullptr) return kUnknown;
   return moment.surroundings->depth_of(*moment.machine);
 }
+static debuggee::MaterialHistory* material_of(const Moment& moment) {
+  return moment.machine != nullptr && moment.surroundings != nullptr ? moment.surroundings->material() : nullptr;
+}
+static double read_removed(const Moment& moment, int) {
+  debuggee::MaterialHistory* const material = material_of(moment);
+  return material != nullptr ? material->removed_at(*moment.machine).volume : kUnknown;
+}
+static double read_in_cut(const Moment& moment, int) {
+  debuggee::MaterialHistory* const material = material_of(moment);
+  if (material == nullptr) return kUnknown;
+  return material->is_in_cut(*moment.machine) ? 1 : 0;
+}
 static double read_feed(const Moment& moment, int) { return execution::feed_in_force(moment.state).number; }
 static double read_spindle_speed(const Moment& moment, int) { return moment.state.spindle_speed; }
 static double read_spindle(const Moment& moment, int) { return moment.state.spindle_function; }
@@ -194,12 +206,21 @@ constexpr Quantity kSingle[] = {
                  "distanza dall'ostacolo più vicino da cui stare lontano"},
      .unit = "mm",
      .read = read_clearance,
-     .is_of_surroundings = true},
+     .limited = debuggee::LimitedQuantity::Clearance},
     {.name = "DEPTH",
      .meaning = {"depth of a contact; 0 without one", "profondità di un contatto; 0 se non c'è"},
      .unit = "mm",
      .read = read_depth,
-     .is_of_surroundings = true},
+     .limited = debuggee::LimitedQuantity::Depth},
+    {.name = "REMOVED",
+     .meaning = {"material removed by the block", "materiale asportato dal blocco"},
+     .unit = "mm³",
+     .read = read_removed,
+     .limited = debuggee::LimitedQuantity::Removed},
+    {.name = "INCUT",
+     .meaning = {"whether the cutter removes material now: 1 or 0", "se il tagliente asporta materiale ora: 1 o 0"},
+     .read = read_in_cut,
+     .limited = debuggee::LimitedQuantity::InCut},
     {.name = "VGPL",
      .meaning = {"GPL variable that IF compares", "variabile GPL confrontata da IF"},
      .read = read_vgpl,

@@ -64,7 +64,8 @@ struct Quantity {
   Read read = nullptr;
   int index = 0;      ///< Which one of its kind: of registers the number.
   Set set = nullptr;  ///< Null for a quantity that cannot be set.
-  bool is_of_surroundings = false;
+  /// For what surrounds the machine, which changes all along a path: what a limit of it is for.
+  std::optional<debuggee::LimitedQuantity> limited = {};
 
   double at(const Moment& moment) const { return read(moment, index); }
 };

@@ -14,24 +14,37 @@ static double constant(const Expression& expression) {
 }
 
 static constexpr dialect::Text kNeedsLimit{
-    "CLEARANCE and DEPTH change all along a path: watch a limit, as CLEARANCE < 5",
-    "CLEARANCE e DEPTH cambiano lungo tutto il percorso: sorvegliare un limite, come CLEARANCE < 5"};
+    "CLEARANCE, DEPTH and REMOVED change all along a path: watch a limit, as CLEARANCE < 5",
+    "CLEARANCE, DEPTH e REMOVED cambiano lungo tutto il percorso: sorvegliare un limite, come CLEARANCE < 5"};
 
-/// `CLEARANCE < 5`. None for what is no limit of the surroundings.
-static std::optional<debuggee::SurroundingsLimit> read_limit(std::string_view text, dialect::Language language) {
-  const std::size_t sign = text.find_first_of("<>");
-  if (sign == std::string_view::npos || sign + 1 == text.size()) return std::nullopt;
+/// The limit of the surroundings that something is, whose value begins before `sign`. None for what is no limit.
+static std::optional<debuggee::SurroundingsLimit> read_limit(std::string_view text, std::size_t sign,
+                                                             dialect::Language language) {
+  if (sign + 1 == text.size()) return std::nullopt;
   const std::size_t right = text[sign + 1] == '=' ? sign + 2 : sign + 1;
   const auto quantity = Expression::compile(text.substr(0, sign), language);
   const auto value = Expression::compile(text.substr(right), language);
   if (!std::holds_alternative<Expression>(quantity) || !std::holds_alternative<Expression>(value)) return std::nullopt;
   const Quantity* const watched = std::get<Expression>(quantity).sole_quantity();
   const auto& number = std::get<Expression>(value);
-  if (watched == nullptr || !watched->is_of_surroundings || !number.is_constant()) return std::nullopt;
+  if (watched == nullptr || !watched->limited || !number.is_constant()) return std::nullopt;
   const double limit = constant(number);
   if (!std::isfinite(limit)) return std::nullopt;
-  return debuggee::SurroundingsLimit{
-      .is_of_depth = watched == find_quantity("DEPTH"), .is_from_below = text[sign] == '>', .value = limit};
+  if (text[sign] != '=')
+    return debuggee::SurroundingsLimit{.of = *watched->limited, .is_from_below = text[sign] == '>', .value = limit};
+  // Equal to one of two values is beyond what is between them.
+  if (watched->limited != debuggee::LimitedQuantity::InCut || (limit != 0 && limit != 1)) return std::nullopt;
+  return debuggee::SurroundingsLimit{.of = *watched->limited, .is_from_below = limit == 1, .value = 0.5};
+}
+
+/// `CLEARANCE < 5`, `INCUT = 1`, `INCUT`. None for what is no limit of the surroundings.
+static std::optional<debuggee::SurroundingsLimit> read_limit(std::string_view text, const Expression& whole,
+                                                             dialect::Language language) {
+  const Quantity* const watched = whole.sole_quantity();
+  const std::size_t sign = text.find_first_of("<>=");
+  if (sign != std::string_view::npos) return read_limit(text, sign, language);
+  if (watched == nullptr || watched->limited != debuggee::LimitedQuantity::InCut) return std::nullopt;
+  return debuggee::SurroundingsLimit{.of = *watched->limited, .is_either_way = true};
 }
 
 std::variant<WatchedValue, ExpressionProblem> WatchedValue::compile(std::string_view text, dialect::Language language) {
@@ -44,10 +57,10 @@ std::variant<WatchedValue, ExpressionProblem> WatchedValue::compile(std::string_
   result.value = std::get<Expression>(std::move(value));
   result.name = text::trimmed(text);
   if (result.value.reads_surroundings()) {
-    result.limit = has_threshold ? std::nullopt : read_limit(text, language);
+    result.limit = read_limit(text, result.value, language);
     if (!result.limit) return ExpressionProblem{std::string(kNeedsLimit.in(language))};
   }
-  if (!has_threshold) return result;
+  if (!has_threshold || result.limit) return result;
   const std::size_t right = text.find_first_not_of('=', equals);
   const auto threshold = Expression::compile(right == std::string_view::npos ? "" : text.substr(right), language);
   if (const auto* const problem = std::get_if<ExpressionProblem>(&threshold)) return *problem;

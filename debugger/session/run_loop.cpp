@@ -356,6 +356,7 @@ void RunLoop::forget_future() {
   const std::uint64_t block = state_.debuggee->present().blocks();
   state_.journal.forget_from(block);
   state_.breakpoints.forget_hits_from(block + 1);
+  state_.surroundings->forget_from(block);
 }
 
 // --- Stops

@@ -51,8 +51,8 @@ void Session::begin(LaunchOptions options) {
   state_.launch_options = std::move(options);
   state_.configuration = std::move(launched.configuration);
   state_.debuggee = std::make_shared<debuggee::Debuggee>(std::move(launched.debuggee));
-  state_.surroundings = std::make_shared<const debuggee::Surroundings>(
-      [this] { return load_scene(); },
+  state_.surroundings = std::make_shared<debuggee::Surroundings>(
+      *state_.debuggee, [this] { return load_scene(); },
       [this] {
         const running::RunOptions run = run_options(launch_options(), state_.configuration);
         return verification::first_workpiece_origin(debuggee().text().text(), run);

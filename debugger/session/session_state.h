@@ -27,8 +27,8 @@ struct SessionState {
   std::optional<dialect::Language> commanded_language;  ///< Of the command line; overrules all others.
   LaunchOptions launch_options;
   configuration::Configuration configuration;
-  std::shared_ptr<debuggee::Debuggee> debuggee;                ///< Null before a launch and after the end.
-  std::shared_ptr<const debuggee::Surroundings> surroundings;  ///< Of the debuggee.
+  std::shared_ptr<debuggee::Debuggee> debuggee;          ///< Null before a launch and after the end.
+  std::shared_ptr<debuggee::Surroundings> surroundings;  ///< Of the debuggee.
   debuggee::Journal journal;
   breakpoints::Breakpoints breakpoints;
   breakpoints::ExceptionFilters exception_filters;

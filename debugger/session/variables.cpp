@@ -34,11 +34,12 @@ enum Reference : std::int64_t {
   kToolValues,
   kFunctionParameters,
   kSurroundings,
+  kMaterial,
   kFunctions = 1000,  ///< The number of an M is added to it.
   kNeighbors = 2000,  ///< The place of an obstacle among all, from 0, is added to it.
 };
 
-constexpr std::array<Scope, 9> kScopes{{
+constexpr std::array<Scope, 10> kScopes{{
     {{"Position", "Posizione"}, kPosition, "locals"},
     {{"Modal groups", "Gruppi modali"}, kModes, {}},
     {{"Feed and spindle", "Feed e mandrino"}, kFeedAndSpindle, {}},
@@ -48,6 +49,7 @@ constexpr std::array<Scope, 9> kScopes{{
     {{"GPL variables", "Variabili GPL"}, kGpl, {}},
     {{"Times", "Tempi"}, kTimes, {}},
     {{"Surroundings", "Dintorni"}, kSurroundings, {}, true},
+    {{"Material", "Materiale"}, kMaterial, {}, true},
 }};
 
 constexpr Text kMachineTip{"Machine", "Macchina"};
@@ -80,6 +82,9 @@ constexpr Text kHit{"hit, {} mm deep", "urto, profondità {} mm"};
 constexpr Text kPart{"Part", "Parte"};
 constexpr Text kDistance{"Distance", "Distanza"};
 constexpr Text kDepth{"Depth", "Profondità"};
+constexpr Text kDepthOfCut{"Depth of cut", "Profondità di passata"};
+constexpr Text kWidthOfCut{"Width of cut", "Larghezza di passata"};
+constexpr Text kLeft{"Left of the blank", "Resto del grezzo"};
 constexpr Text kPoint{"Point", "Punto"};
 constexpr Text kDescribed{"Described", "Descritto"};
 constexpr Text kNoSuchVariables{"there are no variables with the reference {}",
@@ -242,6 +247,19 @@ class Listing {
                            .reference = kNeighbors + static_cast<std::int64_t>(i)});
     }
   }
+  /// What the block does to the material, and what is left of it.
+  void list_material() {
+    debuggee::MaterialHistory* const material = session_.surroundings().material();
+    if (material == nullptr) return;
+    add_quantity("REMOVED");
+    add_quantity("INCUT");
+    const removal::Removed removed = material->removed_at(present());
+    add(in_language(kDepthOfCut), show_length(removed.depth), "mm");
+    add(in_language(kWidthOfCut), show_length(removed.width), "mm");
+    const double volume = material->stock_at(present()).volume();
+    add(in_language(kLeft), fmt::format("{} %", show_length(100 * volume / material->blank_volume())),
+        fmt::format("{} mm³", show_length(volume)));
+  }
   void list_neighbor(std::size_t place) {
     const std::vector<verification::Neighbor>& neighbors = session_.surroundings().neighbors_of(present());
     if (place >= neighbors.size()) throw dap::RequestError(session_.in_language(kNoSuchVariables, kNeighbors + place));
@@ -351,6 +369,7 @@ constexpr VariableList kPlaces[] = {
     {kToolValues, &Listing::list_tool_values},
     {kFunctionParameters, &Listing::list_functions},
     {kSurroundings, &Listing::list_surroundings},
+    {kMaterial, &Listing::list_material},
 };
 
 }  // namespace
@@ -359,6 +378,8 @@ std::vector<Scope> scopes_of(const Session& session) {
   std::vector<Scope> scopes(kScopes.begin(), kScopes.end());
   if (!session.surroundings().are_known())
     std::erase_if(scopes, [](const Scope& scope) { return scope.reference == kSurroundings; });
+  if (!session.surroundings().has_material())
+    std::erase_if(scopes, [](const Scope& scope) { return scope.reference == kMaterial; });
   return scopes;
 }
 

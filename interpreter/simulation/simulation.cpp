@@ -121,12 +121,12 @@ void Simulation::trace_block(const std::function<void(const kinematics::Move&)>&
 }
 
 void Simulation::trace_stretches(
-    const std::function<void(const running::Event& event, const motion::Stretch* stretch)>& on_piece) {
+    const std::function<void(const TimedEvent& event, const motion::Stretch* stretch)>& on_piece) {
   if (has_ended()) return;
   if (!in_block_) start_block();
   while (in_block_ && read_ahead({}) && is_of_block(piece())) {
     const TimelinePiece& next = *piece();
-    on_piece(next.cause->event, next.stretch ? &*next.stretch : nullptr);
+    on_piece(*next.cause, next.stretch ? &*next.stretch : nullptr);
     time_ = std::max(time_, next.end);
     pass_piece();
   }

@@ -67,9 +67,8 @@ class Simulation {
   void trace_block(const std::function<void(const kinematics::Move&)>& on_move);
   /// Ends the block in progress or, between two blocks, the next one, like step_block(). Calls `on_piece` with each
   /// stretch of motion that the machine has not completed yet, and with null for each event that takes time without one
-  /// and for each tool change.
-  void trace_stretches(
-      const std::function<void(const running::Event& event, const motion::Stretch* stretch)>& on_piece);
+  /// and for each tool change. The duration of a motion's event is not known.
+  void trace_stretches(const std::function<void(const TimedEvent& event, const motion::Stretch* stretch)>& on_piece);
 
   /// The block that comes next, before it is executed; none where the program ends.
   std::optional<running::Block> next() { return present_.next(); }
