@@ -34,10 +34,10 @@ MaterialHistory::MaterialHistory(const Debuggee& debuggee, const verification::S
 
 // --- Cutting
 
-/// What has been removed since the past was forgotten.
+/// What stretches have removed since the past was forgotten.
 static Removed removed_so_far(const MaterialCheck& check) {
   Removed all;
-  for (const removal::RemovedByLine& each : check.removed_by_line()) all.add(each.removed);
+  for (const Removed& each : check.removed_by_stretch()) all.add(each);
   return all;
 }
 
@@ -105,25 +105,70 @@ void MaterialHistory::feed(MaterialCheck& check, const BlockRecord& record, doub
   if (until == kToTheEnd) take_events(true);
 }
 
-void MaterialHistory::apply(BlockState& state, const BlockRecord& record) const {
-  state.check.forget_past();
-  feed(state.check, record, kToTheEnd);
-  state.check.settle();
-  state.last = removed_so_far(state.check);
-  ++state.block;
-  // Long motions take more dexels than short ones.
-  const double spacing = state.check.stock().spacing();
-  for (const RecordedPiece& piece : record.pieces)
-    if (piece.stretch) state.work += 1 + length_of(*piece.stretch) / (8 * spacing);
-  if (record.pieces.empty()) return;
-  if (!record.pieces.back().stretch) {
-    state.cut_block.reset();
-  } else if (has_removed(state.last, spacing)) {
-    state.cut_block = record.block;
-    state.free_way = 0;
-  } else {
-    state.free_way += last_run_of(record).length;
+/// Cuts blocks, some of them at once: the tiles are gone through once for all of them.
+class MaterialHistory::BlockCutting {
+ public:
+  /// Refers to both.
+  BlockCutting(const MaterialHistory& history, BlockState& state) : history_(history), state_(state) {
+    state.check.settle();
+    state.check.forget_past();
+    count_ = state.check.stretch_count();
   }
+
+  void take(const BlockRecord& record) {
+    history_.feed(state_.check, record, kToTheEnd);
+    blocks_.push_back({.number = record.block, .end = state_.check.stretch_count() - count_});
+    if (!record.pieces.empty()) {
+      blocks_.back().takes_time = true;
+      if (record.pieces.back().stretch) blocks_.back().last_way = last_run_of(record).length;
+    }
+    // Long motions take more dexels than short ones.
+    const double spacing = state_.check.stock().spacing();
+    for (const RecordedPiece& piece : record.pieces)
+      if (piece.stretch) state_.work += 1 + length_of(*piece.stretch) / (8 * spacing);
+    ++state_.block;
+  }
+  std::size_t waiting() const { return blocks_.empty() ? 0 : blocks_.back().end; }
+
+  void finish() {
+    state_.check.settle();
+    const std::vector<Removed>& removed = state_.check.removed_by_stretch();
+    const double spacing = state_.check.stock().spacing();
+    std::size_t stretch = 0;
+    for (const TakenBlock& each : blocks_) {
+      state_.last = {};
+      for (; stretch < each.end; ++stretch) state_.last.add(removed[stretch]);
+      if (!each.takes_time) continue;
+      if (!each.last_way) {
+        state_.cut_block.reset();
+      } else if (has_removed(state_.last, spacing)) {
+        state_.cut_block = each.number;
+        state_.free_way = 0;
+      } else {
+        state_.free_way += *each.last_way;
+      }
+    }
+    blocks_.clear();
+  }
+
+ private:
+  struct TakenBlock {
+    std::uint64_t number = 0;
+    std::size_t end = 0;  ///< Stretches up to its end.
+    bool takes_time = false;
+    std::optional<double> last_way;  ///< Of the motion at its end; none if it does not end with one.
+  };
+
+  const MaterialHistory& history_;
+  BlockState& state_;
+  std::size_t count_ = 0;  ///< Stretches before.
+  std::vector<TakenBlock> blocks_;
+};
+
+void MaterialHistory::apply(BlockState& state, const BlockRecord& record) const {
+  BlockCutting cutting(*this, state);
+  cutting.take(record);
+  cutting.finish();
 }
 
 // --- Copies
@@ -143,25 +188,35 @@ MaterialHistory::StatePointer MaterialHistory::nearest(std::uint64_t block) cons
 MaterialHistory::StatePointer MaterialHistory::before(std::uint64_t block) {
   const StatePointer start = nearest(block);
   if (start != begin_ && start->block == block) return start;
+  constexpr std::size_t kAtOnce = 256;
   auto moving = std::make_shared<BlockState>(*start);
-  const auto let_go = [&] {  // What is kept stays as it is.
-    if (moving.use_count() > 1) moving = std::make_shared<BlockState>(*moving);
+  std::optional<BlockCutting> cutting;
+  const auto begin = [&] {
+    if (moving.use_count() > 1) moving = std::make_shared<BlockState>(*moving);  // What is kept stays as it is.
+    cutting.emplace(*this, *moving);
+  };
+  const auto finish = [&] {
+    if (cutting) cutting->finish();
+    cutting.reset();
   };
   const auto pass_block = [&](Simulation& simulation) {
-    const BlockRecord record = record_block(simulation);
-    let_go();
-    apply(*moving, record);
+    if (!cutting) begin();
+    cutting->take(record_block(simulation));
+    if (cutting->waiting() < kAtOnce) return;
+    finish();
     if (moving->block < block && !debuggee_.is_run_by_hand_at(moving->block)) keep(moving);
   };
   const auto pass_by_hand = [&](Simulation& simulation) {
-    let_go();
-    moving->check.forget_past();
+    finish();
+    begin();
+    cutting.reset();
     while (!simulation.has_ended()) feed(moving->check, record_block(simulation), kToTheEnd);
     moving->check.settle();
     moving->last = removed_so_far(moving->check);
     moving->cut_block.reset();
   };
   debuggee_.pass_blocks(start == begin_ ? std::nullopt : std::optional(start->block), block, pass_block, pass_by_hand);
+  finish();
   keep(moving);
   latest_.push_back(moving);
   if (latest_.size() > kLatest) latest_.pop_front();

@@ -92,6 +92,7 @@ class MaterialHistory {
     StatePointer state;
   };
 
+  class BlockCutting;
   using Copies = std::map<std::uint64_t, KeptCopy>;  ///< By the blocks executed.
   /// A piece of a stretch, and whether the cutter removes material on it.
   struct InCutPiece {

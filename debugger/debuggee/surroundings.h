@@ -50,6 +50,8 @@ class Surroundings {
   bool has_material() const { return workpiece().has_value(); }
   /// What remains of it; null without a blank. Moments are those of simulations of the debuggee's run.
   MaterialHistory* material() const;
+  /// Whether somebody has asked for it, so that it is cut. For tests.
+  bool is_material_cut() const { return material_.has_value(); }
   /// The run has been changed where this many blocks had been executed.
   void forget_from(std::uint64_t blocks);
 

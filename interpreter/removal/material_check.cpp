@@ -187,6 +187,7 @@ SweepPath MaterialCheck::placed(const SweepPath& tip, Role role) const {
 
 void MaterialCheck::cut_waiting() {
   std::vector<bool> has_cut(waiting_.size());
+  if (notes_stretches_) by_stretch_.resize(by_stretch_.size() + waiting_.size());
   if (!sweeps_.empty()) {
     const Stock before = stock_;
     const std::vector<SweepOutcome> outcomes = stock_.apply(sweeps_, workers_);
@@ -256,6 +257,7 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
     tool_ = static_cast<std::size_t>(known - by_tool_.begin());
     if (known == by_tool_.end()) by_tool_.push_back({.tool = code_});
   }
+  if (notes_stretches_) by_stretch_[by_stretch_.size() - waiting_.size() + use.stretch].add(removed);
   RemovedByTool& tool = by_tool_[*tool_];
   tool.removed.add(removed);
   const motion::Stretch& motion = stretch.stretch;
@@ -581,6 +583,8 @@ void MaterialCheck::forget_past() {
   left_out_ = 0;
   looked_at_ = 0;
   by_line_.clear();
+  by_stretch_.clear();
+  notes_stretches_ = true;
 }
 
 std::vector<Incident> MaterialCheck::incidents_so_far() const {

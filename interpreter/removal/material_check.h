@@ -44,8 +44,13 @@ class MaterialCheck {
   // For a run that goes back, too. A copy that is made while nothing waits goes on by itself, and shares the stock.
   /// Cuts what waits.
   void settle() { cut_waiting(); }
-  /// Forgets what has been noted of lines and of incidents that are over, so that a copy takes little.
+  /// Forgets what has been noted of lines, stretches and incidents that are over, so that a copy takes little. From
+  /// then on, what each stretch removes is noted.
   void forget_past();
+  /// After settle(): what the stretches since forget_past() have removed, in their order.
+  const std::vector<Removed>& removed_by_stretch() const { return by_stretch_; }
+  /// Stretches that have been taken since the start of the run with a tool.
+  std::size_t stretch_count() const { return cut_ + waiting_.size(); }
   /// After settle(): the incidents since forget_past(), and those that may go on, by time and as they are known so far.
   std::vector<Incident> incidents_so_far() const;
   /// After settle(): whether a rapid, a shank, a holder or the nose is in material at the end of the last stretch.
@@ -56,7 +61,7 @@ class MaterialCheck {
   std::size_t left_out() const { return left_out_; }  ///< Incidents beyond those that are kept.
   /// After finish(), in the order of their first use.
   const std::vector<RemovedByTool>& removed_by_tool() const { return by_tool_; }
-  /// After finish() or settle(): lines that removed something, in the order of the run.
+  /// After finish(): lines that removed something, in the order of the run.
   const std::vector<RemovedByLine>& removed_by_line() const { return by_line_; }
   const stock::Stock& stock() const { return stock_; }  ///< In the frame of the setup.
   /// How much thinner bodies count than they are, all around, mm: what a cut may leave beside its body.
@@ -161,6 +166,8 @@ class MaterialCheck {
   bool has_cuts_to_show_ = false;
   std::vector<RemovedByTool> by_tool_;
   std::vector<RemovedByLine> by_line_;
+  bool notes_stretches_ = false;
+  std::vector<Removed> by_stretch_;
   std::vector<solids::BoundingBox> loose_;  ///< Where pieces have come free.
 };
 

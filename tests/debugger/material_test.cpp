@@ -316,6 +316,50 @@ TEST(Material, IsCutByHand) {
   EXPECT_NEAR(early.material().removed_at(early.debuggee.present()).volume, std::numbers::pi * 100 * 10, 30);
 }
 
+TEST(Material, IsNotCutBeforeSomebodyAsks) {
+  const Work work = work_of("M06 T101001\nS12000 M03\nG00 X50 Y50 Z60\nG01 Z30 F3000\nX60\nG00 Z90\nM02\n");
+  const DebuggedWork debugged(work);
+  EXPECT_TRUE(debugged.surroundings.has_material());
+  const debuggee::SurroundingsLimit clearance{.value = 5};
+  Simulation simulation = debugged.debuggee.present();
+  while (!simulation.has_ended()) {
+    debugged.surroundings.pass_block(simulation, {.contacts = false, .limits = {clearance}});
+    debugged.surroundings.depth_of(simulation);
+  }
+  EXPECT_FALSE(debugged.surroundings.is_material_cut());
+  EXPECT_GT(debugged.material().stock_at(simulation).volume(), 0);
+  EXPECT_TRUE(debugged.surroundings.is_material_cut());
+}
+
+/// Blocks that are shorter than the dexels are apart, so that not each of them meets one.
+TEST(Material, IsInCutOverShortBlocks) {
+  // Along the edge of the blank, over one row of dexels.
+  std::string text = "M06 T101001\nS12000 M03\nG00 X50 Y-9.2 Z60\nG01 Z35 F3000\n";
+  for (int i = 1; i <= 100; ++i) text += fmt::format("X{:.2f}\n", 50 + i * 0.15);
+  for (int i = 1; i <= 100; ++i) text += fmt::format("X{:.2f}\n", 65 - i * 0.15);
+  const Work work = work_of(text + "G00 Z90\nM02\n");
+  DebuggedWork debugged(work);
+  std::vector<std::uint64_t> without;  // Blocks that remove nothing, though the cutter goes on.
+  for (std::uint64_t block = 0; block < 204; ++block) {
+    debugged.debuggee.step_block();
+    const Simulation& present = debugged.debuggee.present();
+    const double removed = debugged.material().removed_at(present).volume;
+    if (block >= 4 && block < 104 && removed == 0) without.push_back(block);
+    const bool is_in_cut = debugged.material().is_in_cut(present);
+    if (block >= 6 && block < 104) {
+      EXPECT_TRUE(is_in_cut) << block;
+    }
+    if (block > 111) {
+      EXPECT_FALSE(is_in_cut) << block;
+    }
+    DebuggedWork fresh(work);
+    if (block % 17 != 0) continue;
+    fresh.debuggee.go_to_block(present.blocks());
+    EXPECT_EQ(fresh.material().is_in_cut(fresh.debuggee.present()), is_in_cut) << block;
+  }
+  EXPECT_FALSE(without.empty());
+}
+
 /// A slot 5 mm deep, with a way back through it and a rest in it.
 constexpr const char* kSlot =
     "M06 T101001\n"
