@@ -16,10 +16,18 @@ struct Kind {
 };
 
 static constexpr Kind kKinds[] = {
-    {"short", write_short_moves},     {"arcs", write_arcs},
-    {"fiveaxis", write_five_axis},    {"incremental", write_incremental},
-    {"production", write_production}, {"production-if", write_production_if},
-    {"hostile-if", write_hostile_if}, {"errors", write_errors},
+    {"short", write_short_moves},
+    {"arcs", write_arcs},
+    {"fiveaxis", write_five_axis},
+    {"incremental", write_incremental},
+    {"production", write_production},
+    {"production-if", write_production_if},
+    {"hostile-if", write_hostile_if},
+    {"errors", write_errors},
+    {"walk", write_walk},
+    {"walk-narrow", write_narrow_walk},
+    {"walk-five-axes", write_five_axis_walk},
+    {"table", write_table},
 };
 
 static const Kind* find_kind(std::string_view name) {

@@ -19,6 +19,15 @@ void write_production(Writer& out, Random& random, int lines);
 void write_production_if(Writer& out, Random& random, int lines);
 void write_hostile_if(Writer& out, Random& random, int lines);
 
+/// Moves of 1 mm over a panel from the origin to X1000 Y1000, in the material at Z0 and below; `narrow` over one to
+/// X250 Y250; `five_axis` while B and C turn by up to half a degree each.
+void write_walk(Writer& out, Random& random, int lines);
+void write_narrow_walk(Writer& out, Random& random, int lines);
+void write_five_axis_walk(Writer& out, Random& random, int lines);
+
+/// Rows of ramps that cut a table from the origin to X3000 Y1500 all over, by a tool of 20 mm.
+void write_table(Writer& out, Random& random, int lines);
+
 /// Exactly one finding on every line but the first five and the last three.
 void write_errors(Writer& out, Random& random, int lines);
 
