@@ -1,6 +1,7 @@
 #include "interpreter/motion/stretch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace isocnc::motion {
@@ -44,9 +45,33 @@ Sample Stretch::at(const kinematics::Kinematics& kinematics, double time) const 
 
 double Stretch::parameter_at(double time) const { return phase_at(*this, time).from; }
 
+/// By Newton's method, whose result may be wrong by some roundings, and halving around it down to neighboring doubles.
 double Stretch::time_at(double s) const {
   double early = start;
   double late = start + duration;
+  if (!(phases[0].from < s)) return early;
+  if (!(s < parameter_at(late))) return late;
+  double guess = std::midpoint(early, late);
+  for (int i = 0; i < 8; ++i) {
+    const Phase now = phase_at(*this, guess);
+    if (!(now.speed > 0)) break;
+    const double step = (s - now.from) / now.speed;
+    guess = std::clamp(guess + step, early, late);
+    if (std::abs(step) < 1e-13 * late) break;
+  }
+  const double end = late;
+  for (double width = 1e-15 * end; early < guess - width; width *= 8) {
+    if (parameter_at(guess - width) < s) {
+      early = guess - width;
+      break;
+    }
+  }
+  for (double width = 1e-15 * end; guess + width < end; width *= 8) {
+    if (!(parameter_at(guess + width) < s)) {
+      late = guess + width;
+      break;
+    }
+  }
   for (double middle = std::midpoint(early, late); early < middle && middle < late;
        middle = std::midpoint(early, late)) {
     (parameter_at(middle) < s ? early : late) = middle;
