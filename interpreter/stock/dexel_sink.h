@@ -24,6 +24,10 @@ class DexelSink {
   /// each has at most one interval; else null. A dexel that ends below the body's lower surface need not be taken.
   const float* tops_to_cut(int row, int first) const { return cut_ ? tile_.tops(row, first) : nullptr; }
 
+  /// Sets the highest ends of `size` dexels of a row from a column on, cut or not; below all else where there is no
+  /// material.
+  void highest(int row, int first, int size, float* tops) const { tile_.highest(row, first, size, tops); }
+
   /// The columns [first, last) of a row, all with the same interval.
   void take_run(int row, int first, int last, const HeightInterval& z) {
     if (first >= last || z.is_empty()) return;

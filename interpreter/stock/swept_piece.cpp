@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace isocnc::stock {
@@ -14,8 +15,14 @@ using solids::Frustum;
 namespace {
 
 constexpr double kParallelSine = 1e-9;
-constexpr double kConverged = 1e-7;  // mm
-constexpr double kNoSkin = 1e-4;     ///< Pieces of a body that are so near, mm, have nothing between them.
+constexpr float kTiny = 1e-20F;
+constexpr float kHuge = 1e20F;
+constexpr double kFloatError = 1e-5;  ///< Far more than rounding to floats moves a point, as a part of the size.
+constexpr double kConverged = 1e-7;   // mm
+constexpr double kNoSkin = 1e-4;      ///< Pieces of a body that are so near, mm, have nothing between them.
+
+/// The value, or 0 of what is negative. Without a branch, so that loops over it become vectors.
+float positive(float value) { return (value + std::abs(value)) / 2; }
 
 /// Without the upper part of its core that is above `ceiling` all along the travel.
 solids::BodyPiece below(double ceiling, const solids::BodyPiece& piece, const solids::AxisPlacement& at,
@@ -35,6 +42,17 @@ solids::BodyPiece below(double ceiling, const solids::BodyPiece& piece, const so
 
 }  // namespace
 
+solids::BoundingBox swept_bounds(const solids::BodyPiece& piece, const solids::AxisPlacement& at, const Vec3& travel) {
+  const solids::PlacedFrustum core(piece.core, at);
+  solids::BoundingBox bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 unit = Vec3::Unit(axis);
+    bounds.min()[axis] = core.lowest(unit) - piece.rounding + std::min(0.0, travel[axis]);
+    bounds.max()[axis] = core.highest(unit) + piece.rounding + std::max(0.0, travel[axis]);
+  }
+  return bounds;
+}
+
 SweptPiece::SweptPiece(const solids::BodyPiece& piece, const solids::AxisPlacement& at, const Vec3& travel,
                        double ceiling)
     : piece_(below(ceiling, piece, at, travel)),
@@ -46,11 +64,9 @@ SweptPiece::SweptPiece(const solids::BodyPiece& piece, const solids::AxisPlaceme
       at_end_(piece_.core, {at.origin + travel, at.axis}) {
   const Frustum& core = piece_.core;
   is_ball_ = core.top == core.bottom && core.bottom_radius == 0 && core.top_radius == 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 unit = Vec3::Unit(axis);
-    bounds_.min()[axis] = core_.lowest(unit) - piece.rounding + std::min(0.0, travel[axis]);
-    bounds_.max()[axis] = core_.highest(unit) + piece.rounding + std::max(0.0, travel[axis]);
-  }
+  bounds_ = swept_bounds(piece_, at, travel);
+  find_shadow();
+  find_floats();
   if (!moves_ || is_ball_) return;
   find_edges();
   discs_ = {SweptDisc{at.at(core.bottom), core.bottom_radius}, SweptDisc{at.at(core.top), core.top_radius}};
@@ -61,6 +77,86 @@ SweptPiece::SweptPiece(const solids::BodyPiece& piece, const solids::AxisPlaceme
   step_ = at.axis.z() / rise_;
   drift_ = Vec3(0, 0, 1) - step_ * travel;
   drift_square_ = drift_.squaredNorm();
+}
+
+void SweptPiece::find_shadow() {
+  for (std::size_t i = 0; i < kShadowSides; ++i) {
+    const double angle = (static_cast<double>(i) - (kShadowSides - 1) / 2.0) * std::numbers::pi / kShadowSides;
+    const Vec3 normal(std::cos(angle), std::sin(angle), 0);
+    const auto reach = [&](const Vec3& n) {
+      return core_.highest(n) + piece_.rounding + std::max(0.0, travel_.dot(n));
+    };
+    const double slope = -normal.y() / normal.x();
+    right_[i] = {reach(normal) / normal.x(), slope};
+    left_[i] = {-reach(-normal) / normal.x(), slope};
+  }
+}
+
+HeightInterval SweptPiece::shadow(double y) const {
+  HeightInterval x{bounds_.min().x(), bounds_.max().x()};
+  for (std::size_t i = 0; i < kShadowSides; ++i)
+    x.clip({left_[i].at + left_[i].slope * y, right_[i].at + right_[i].slope * y});
+  return x;
+}
+
+/// For each line, any vector n with n.z <= 0 serves for which no point of the sweep is as far along n as the line at
+/// its height: what is below is even farther along n. The one from the nearest point of the core, moved by a share of
+/// the travel, does where any does, or nearly so. Upwards the same with n.z >= 0. In a loop that becomes vectors.
+void SweptPiece::clear(double x, double step, double y, const float* tops, float* clearances) const {
+  const FloatForm form = floats_;
+  const Vec3 base = from_.at(piece_.core.bottom);
+  const auto first = static_cast<float>(x - base.x());
+  const auto spacing = static_cast<float>(step);
+  const auto dy = static_cast<float>(y - base.y());
+  const auto base_z = static_cast<float>(base.z());
+  for (int i = 0; i < kTogether; ++i) {
+    const float dx = first + static_cast<float>(i) * spacing;
+    const float dz = tops[i] - base_z;
+    const float ahead = dx * form.across[0] + dy * form.across[1] + dz * form.across[2];
+    const float share = 1 - positive(1 - positive(ahead));
+    const float px = dx - share * form.travel[0];
+    const float py = dy - share * form.travel[1];
+    const float pz = dz - share * form.travel[2];
+    const float along = px * form.axis[0] + py * form.axis[1] + pz * form.axis[2];
+    const float ox = px - along * form.axis[0];
+    const float oy = py - along * form.axis[1];
+    const float oz = pz - along * form.axis[2];
+    const float radius = std::sqrt(ox * ox + oy * oy + oz * oz);
+    const float foot = form.height - positive(form.height - positive(along));
+    // n = n_along axis + n_out (ox, oy, oz) / radius: across the side, where the foot is within the core.
+    const float n_out = positive(radius - (form.low_radius + form.growth * foot));
+    const float n_along = along - foot - form.growth * n_out;
+    const float unit = n_out / (radius + kTiny);
+    const float n_travel =
+        n_along * form.rise + unit * (ox * form.travel[0] + oy * form.travel[1] + oz * form.travel[2]);
+    const float n_length = std::sqrt(n_along * n_along + n_out * n_out);
+    const float at_low = form.low_radius * n_out;
+    const float at_high = n_along * form.height + form.high_radius * n_out;
+    const float beyond = n_along * along + n_out * radius + share * n_travel - positive(n_travel) - at_low -
+                         positive(at_high - at_low) - form.rounding * n_length;
+    clearances[i] = beyond - kHuge * positive(n_along * form.axis[2] + unit * oz);
+  }
+}
+
+void SweptPiece::find_floats() {
+  const Frustum& core = piece_.core;
+  FloatForm& form = floats_;
+  form.rise = static_cast<float>(travel_.dot(from_.axis));
+  Vec3 across = travel_ - travel_.dot(from_.axis) * from_.axis;
+  const double square = across.squaredNorm();
+  across = square > 0 ? Vec3(across / square) : Vec3(Vec3::Zero());
+  for (int i = 0; i < 3; ++i) {
+    form.axis[static_cast<std::size_t>(i)] = static_cast<float>(from_.axis[i]);
+    form.travel[static_cast<std::size_t>(i)] = static_cast<float>(travel_[i]);
+    form.across[static_cast<std::size_t>(i)] = static_cast<float>(across[i]);
+  }
+  const double height = core.top - core.bottom;
+  form.height = static_cast<float>(height);
+  form.low_radius = static_cast<float>(core.bottom_radius);
+  form.high_radius = static_cast<float>(core.top_radius);
+  form.growth = height > 0 ? static_cast<float>((core.top_radius - core.bottom_radius) / height) : 0.0F;
+  const double size = height + std::max(core.bottom_radius, core.top_radius) + piece_.rounding + travel_.norm();
+  form.rounding = static_cast<float>(piece_.rounding + kFloatError * size);
 }
 
 /// The straight lines on the side of the core along which the travel touches it: with the outward normal
@@ -207,11 +303,14 @@ HeightInterval SweptPiece::rounded_chord(const Vec2& line) const {
   return std::isnan(top) ? HeightInterval() : HeightInterval{bottom, top};
 }
 
+static constexpr float kNothing = -std::numeric_limits<float>::infinity();
+
 void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
   const DexelGrid& grid = sink.grid();
   struct Window {
     const SweptPiece* piece;
     int first_row, last_row, first, last;
+    bool is_in_row = false;
   };
   std::vector<Window> windows;
   Window all{nullptr, grid.rows, 0, grid.columns, 0};
@@ -228,31 +327,75 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
     all.last = std::max(all.last, window.last);
   }
   std::vector<HeightInterval> met;
-  for (int row = all.first_row; row < all.last_row; ++row) {
-    for (int column = all.first; column < all.last; ++column) {
-      sink.set(column - all.first, {});
-      const Vec2 line(grid.x(column), grid.y(row));
-      met.clear();
-      for (const Window& window : windows) {
-        if (row < window.first_row || row >= window.last_row || column < window.first || column >= window.last)
-          continue;
-        const HeightInterval interval = window.piece->chord(line);
-        if (!interval.is_empty()) met.push_back(interval);
-      }
-      if (met.empty()) continue;
-      std::sort(met.begin(), met.end(),
-                [](const HeightInterval& left, const HeightInterval& right) { return left.bottom < right.bottom; });
-      HeightInterval present = met.front();
-      for (const HeightInterval& next : met) {
-        if (next.bottom > present.top + kNoSkin) {
-          sink.take_apart(row, column, present);
-          present = next;
-        }
-        present.include(next);
-      }
-      sink.set(column - all.first, present);
+  const auto take = [&](int row, int column) {
+    const Vec2 line(grid.x(column), grid.y(row));
+    met.clear();
+    for (const Window& window : windows) {
+      if (!window.is_in_row || column < window.first || column >= window.last) continue;
+      const HeightInterval interval = window.piece->chord(line);
+      if (!interval.is_empty()) met.push_back(interval);
     }
-    sink.take_row(row, all.first, all.last);
+    if (met.empty()) return HeightInterval();
+    std::sort(met.begin(), met.end(),
+              [](const HeightInterval& left, const HeightInterval& right) { return left.bottom < right.bottom; });
+    HeightInterval present = met.front();
+    for (const HeightInterval& next : met) {
+      if (next.bottom > present.top + kNoSkin) {
+        sink.take_apart(row, column, present);
+        present = next;
+      }
+      present.include(next);
+    }
+    return present;
+  };
+  constexpr int kTogether = SweptPiece::kTogether;
+  using Floats = std::array<float, kTogether>;
+  // Lowers `clearances` to those of all pieces that have a part in these dexels.
+  const auto clear = [&](int row, int group, int size, const Floats& tops, Floats& clearances) {
+    Floats each;
+    for (const Window& window : windows) {
+      if (!window.is_in_row || window.first >= group + size || group >= window.last) continue;
+      window.piece->clear(grid.x(group), grid.spacing.x(), grid.y(row), tops.data(), each.data());
+      for (std::size_t i = 0; i < kTogether; ++i) clearances[i] = std::min(clearances[i], each[i]);
+    }
+  };
+  for (int row = all.first_row; row < all.last_row; ++row) {
+    int first = grid.columns;
+    int last = 0;
+    for (Window& window : windows) {
+      window.is_in_row = row >= window.first_row && row < window.last_row;
+      if (!window.is_in_row) continue;
+      const HeightInterval shadow = window.piece->shadow(grid.y(row));
+      window.first = grid.first_column(shadow.bottom);
+      window.last = grid.first_column(shadow.top);
+      window.is_in_row = window.first < window.last;
+      if (!window.is_in_row) continue;
+      first = std::min(first, window.first);
+      last = std::max(last, window.last);
+    }
+    for (int group = first; group < last; group += kTogether) {
+      const int size = std::min(kTogether, last - group);
+      Floats tops;
+      tops.fill(kNothing);
+      sink.highest(row, group, size, tops.data());
+      Floats clearances;
+      clearances.fill(1);
+      clear(row, group, size, tops, clearances);
+      // The dexels in which the sweep may meet material.
+      std::array<int, kTogether> open;
+      int count = 0;
+      for (int i = 0; i < size; ++i) {
+        const auto lane = static_cast<std::size_t>(i);
+        open[static_cast<std::size_t>(count)] = i;
+        count += !(clearances[lane] > 0) & (tops[lane] > kNothing) ? 1 : 0;
+      }
+      if (count == 0) continue;
+      for (int i = 0; i < count; ++i) {
+        const int lane = open[static_cast<std::size_t>(i)];
+        sink.set(0, take(row, group + lane));
+        sink.take_row(row, group + lane, group + lane + 1);
+      }
+    }
   }
 }
 

@@ -23,6 +23,16 @@ class SweptPiece {
   const solids::BoundingBox& bounds() const { return bounds_; }
   HeightInterval chord(const geometry::Vec2& line) const;
 
+  /// Dexels that are looked at together.
+  static constexpr int kTogether = 8;
+
+  /// From where to where along x the lines at a y may meet the sweep: a polygon around its shadow.
+  HeightInterval shadow(double y) const;
+  /// Of the lines at x, x + step, and so on, all at y, sets a number above 0 for those that surely meet nothing at
+  /// their tops and below: there is a plane that leaves the sweep on its one side, and that part of the line on the
+  /// other one.
+  void clear(double x, double step, double y, const float* tops, float* clearances) const;
+
  private:
   /// A parallelogram with one side along the travel.
   struct SweptEdge {
@@ -41,6 +51,8 @@ class SweptPiece {
   void include_disc(const SweptDisc& disc, const geometry::Vec2& line, HeightInterval& result) const;
   void include_edge(const SweptEdge& edge, const geometry::Vec2& line, HeightInterval& result) const;
   void find_edges();
+  void find_shadow();
+  void find_floats();
   geometry::Vec3 out_of_core(const geometry::Vec3& point) const;
   double bound_of_core(const geometry::Vec2& line, double from, double direction) const;
 
@@ -53,6 +65,27 @@ class SweptPiece {
   chords::FrustumChord at_start_;
   chords::FrustumChord at_end_;
   solids::BoundingBox bounds_;
+  /// x = at + slope y, a line that the shadow has on one side.
+  struct ShadowSide {
+    double at = 0;
+    double slope = 0;
+  };
+  static constexpr int kShadowSides = 8;
+  std::array<ShadowSide, kShadowSides> left_;
+  std::array<ShadowSide, kShadowSides> right_;
+  /// The sweep as clear() has it.
+  struct FloatForm {
+    std::array<float, 3> axis;
+    std::array<float, 3> travel;
+    std::array<float, 3> across;  ///< The travel across the axis, by the square of its length.
+    float rise;                   ///< The travel along the axis.
+    float height;
+    float low_radius;
+    float high_radius;
+    float growth;
+    float rounding;  ///< With a margin.
+  };
+  FloatForm floats_;
   std::array<SweptEdge, 2> edges_;
   int edge_count_ = 0;
   std::array<SweptDisc, 2> discs_;
@@ -63,6 +96,10 @@ class SweptPiece {
   geometry::Vec3 drift_ = geometry::Vec3(0, 0, 1);  ///< Growth with z of the distance from the disc's center.
   double drift_square_ = 1;
 };
+
+/// The bounds of a piece along a straight line, as SweptPiece has them.
+solids::BoundingBox swept_bounds(const solids::BodyPiece& piece, const solids::AxisPlacement& at,
+                                 const geometry::Vec3& travel);
 
 /// Takes the dexels that some pieces of one body pass through.
 void sweep(std::span<const SweptPiece> pieces, DexelSink& sink);

@@ -116,6 +116,19 @@ std::optional<float> Tile::top(int row, int column) const {
   return tops_[at] > bottom_at(at) ? std::optional(tops_[at]) : std::nullopt;
 }
 
+void Tile::highest(int row, int first, int size, float* tops) const {
+  constexpr float kNothing = -std::numeric_limits<float>::infinity();
+  if (is_uniform()) {
+    std::fill_n(tops, size, is_empty() ? kNothing : ceiling_);
+    return;
+  }
+  const std::size_t start = index(row, first);
+  for (int i = 0; i < size; ++i) {
+    const std::size_t at = start + static_cast<std::size_t>(i);
+    tops[i] = tops_[at] > bottom_at(at) ? tops_[at] : kNothing;
+  }
+}
+
 std::optional<CutTag> Tile::cut_by(int row, int column) const {
   if (tags_.empty() || tags_[index(row, column)] == kUncut) return {};
   return tags_[index(row, column)];
@@ -157,9 +170,17 @@ void Tile::insert_lower(int row, const LowerInterval& interval) {
   all.insert(std::upper_bound(all.begin(), all.end(), interval, is_in_order), interval);
 }
 
+bool Tile::has_lower(int row, int column) const {
+  if (!has_lower(row)) return false;
+  const LowerIntervals& all = lower_[static_cast<std::size_t>(row)];
+  const auto at = std::lower_bound(all.begin(), all.end(), column,
+                                   [](const LowerInterval& each, int wanted) { return each.column < wanted; });
+  return at != all.end() && at->column == column;
+}
+
 /// One interval in the dexel; the frequent cases first.
 void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, DexelCount& count) {
-  if (has_lower(row)) return cut_dexel_of_many(row, column, bottom, top, tag, count);
+  if (has_lower(row, column)) return cut_dexel_of_many(row, column, bottom, top, tag, count);
   const std::size_t at = index(row, column);
   const float old_top = tops_[at];
   const float old_bottom = bottom_at(at);
@@ -179,14 +200,19 @@ void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, D
   }
 }
 
-/// Several intervals in the dexel, or in others of its row.
+/// Several intervals in the dexel.
 void Tile::cut_dexel_of_many(int row, int column, float bottom, float top, CutTag tag, DexelCount& count) {
   const std::size_t at = index(row, column);
   LowerIntervals& all = lower_[static_cast<std::size_t>(row)];
   const auto is_before = [](const LowerInterval& interval, int wanted) { return interval.column < wanted; };
   const auto first = std::lower_bound(all.begin(), all.end(), column, is_before);
   const auto last = std::lower_bound(first, all.end(), column + 1, is_before);
-  LowerIntervals left;  // From the highest one down.
+  const auto meets = [&](float from, float to) { return std::max(bottom, from) < std::min(top, to); };
+  if (!meets(bottom_at(at), tops_[at]) &&
+      std::none_of(first, last, [&](const LowerInterval& each) { return meets(each.bottom, each.top); }))
+    return;
+  thread_local LowerIntervals left;  // From the highest one down. Kept, so that its memory is.
+  left.clear();
   float removed = 0;
   float lowest = top;
   const auto cut = [&](float old_bottom, float old_top) {

@@ -89,6 +89,9 @@ class Tile {
     return is_uniform() || has_lower(row) ? nullptr : tops_.data() + index(row, first);
   }
 
+  /// Sets the upper ends of `size` dexels of a row from a column on; minus infinity where there is no material.
+  void highest(int row, int first, int size, float* tops) const;
+
   /// Counts what of the material of a row is in [bottom, top]. Overlaps shorter than kTouch are none.
   void meet_row(int row, int first, int last, const float* bottoms, const float* tops, DexelCount& count) const;
 
@@ -114,6 +117,7 @@ class Tile {
   }
   float bottom_at(std::size_t index) const { return bottoms_.empty() ? bottom_ : bottoms_[index]; }
   bool has_lower(int row) const { return !lower_.empty() && !lower_[static_cast<std::size_t>(row)].empty(); }
+  bool has_lower(int row, int column) const;
   void cut_dexel(int row, int column, float bottom, float top, CutTag tag, DexelCount& count);
   void cut_dexel_of_many(int row, int column, float bottom, float top, CutTag tag, DexelCount& count);
   void set_bottom(std::size_t index, float bottom);

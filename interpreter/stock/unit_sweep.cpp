@@ -151,7 +151,7 @@ void UnitSweeps::append_slanted(const AxisPlacement& from, const Vec3& travel, s
                                 std::size_t piece_count) {
   UnitSweep unit{.sweep = sweep_, .shape = shape_, .motion = SlantedLine{from, travel, first_piece, piece_count}};
   for (std::size_t i = 0; i < piece_count; ++i)
-    unit.bounds.extend(SweptPiece(shape().pieces[first_piece + i], from, travel).bounds());
+    unit.bounds.extend(swept_bounds(shape().pieces[first_piece + i], from, travel));
   units_.push_back(unit);
 }
 
