@@ -74,8 +74,7 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::
   last_frame_ = frame;
   if (frames_.empty() || !(frames_.back() == frame)) frames_.push_back(frame);
   waiting_.push_back({.stretch = stretch, .line = event.event.line, .frame = frames_.size() - 1, .is_feed = is_feed});
-  pieces_.clear();
-  append_tip_paths(machine_.motion.kinematics, stretch.path, from, to, forms_->reach(), stock_.spacing() / 40, pieces_);
+  divide(stretch, from, to);
   if (watcher_) show_moments(stretch);
   for (TipPath& piece : pieces_) {
     waiting_.back().length += length_of(piece.path);
@@ -83,6 +82,33 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::
     append_sweeps(piece, is_feed);
   }
   if (waiting_.size() == kBatch) cut_waiting();
+}
+
+/// Sets the pieces of a stretch between two path parameters. A long tool needs many of them while its axis turns, but where
+/// only the cutter may come near the blank, those that it needs are enough.
+void MaterialCheck::divide(const motion::Stretch& stretch, double begin, double end) {
+  const double tolerance = stock_.spacing() / 40;
+  const double reach = forms_->reach();
+  const double cutter_reach = forms_->cutter_reach();
+  const auto append = [&](double of) {
+    pieces_.clear();
+    append_tip_paths(machine_.motion.kinematics, stretch.path, begin, end, of, tolerance, pieces_);
+  };
+  append(cutter_reach > 0 ? cutter_reach : reach);
+  if (!(cutter_reach > 0 && cutter_reach < reach)) return;
+  // How far a point of the tool may be from where these pieces have it: within the tolerance at both ends of the cutter,
+  // and beyond as on a line through them.
+  const double error = 2 * tolerance * reach / cutter_reach;
+  const bool is_cutter_alone = std::none_of(pieces_.begin(), pieces_.end(), [&](const TipPath& piece) {
+    const SweepPath tip = moved(piece.path, -workpiece_.origin);
+    const auto is_near = [&](const RevolvedBody* body, Role role) {
+      return body && may_meet(*body, placed(tip, role), error);
+    };
+    return is_near(forms_->shank(), Role::Shank) || is_near(forms_->shank_with_wall(), Role::ShankWall) ||
+           is_near(forms_->holder(), Role::Holder) || is_near(forms_->holder_with_clearance(), Role::HolderNear) ||
+           is_near(forms_->nose(), Role::Nose) || is_near(forms_->nose_with_clearance(), Role::NoseNear);
+  });
+  if (!is_cutter_alone) append(reach);
 }
 
 /// Shows the moments before the last stretch that waits, and those within it. What is cut up to a moment within it is
@@ -99,9 +125,7 @@ void MaterialCheck::show_moments(const motion::Stretch& stretch) {
     Stock partial = stock_;
     bool is_cut = has_cuts_to_show_;
     if (moment > stretch.start && forms_->cutter()) {
-      pieces_.clear();
-      append_tip_paths(machine_.motion.kinematics, stretch.path, stretch.phases[0].from, stretch.parameter_at(moment),
-                       forms_->reach(), stock_.spacing() / 40, pieces_);
+      divide(stretch, stretch.phases[0].from, stretch.parameter_at(moment));
       for (const TipPath& piece : pieces_) {
         const Sweep sweep{.body = forms_->cutter(),
                           .path = moved(piece.path, -workpiece_.origin),
@@ -148,9 +172,9 @@ void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece,
   uses_.push_back({static_cast<std::uint32_t>(waiting_.size() - 1), role, piece.from, piece.to});
 }
 
-/// False only if the body is above the blank all the time.
-bool MaterialCheck::may_meet(const RevolvedBody& body, const SweepPath& path) const {
-  const double top = stock_.bounds().max().z();
+/// False only if the body is above the blank all the time, by more than a margin.
+bool MaterialCheck::may_meet(const RevolvedBody& body, const SweepPath& path, double margin) const {
+  const double top = stock_.bounds().max().z() + margin;
   const Vec3 up(0, 0, 1);
   if (const auto* const turning = std::get_if<stock::TurningPath>(&path)) {
     const auto middle = [&](const solids::AxisPlacement& at) { return (at.origin + body.middle() * at.axis).z(); };
@@ -261,9 +285,10 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
   RemovedByTool& tool = by_tool_[*tool_];
   tool.removed.add(removed);
   const motion::Stretch& motion = stretch.stretch;
-  tool.seconds += motion.time_at(use.to) - motion.time_at(use.from);
+  const double end_time = motion.time_at(use.to);
+  tool.seconds += end_time - motion.time_at(use.from);
   if (by_line_.empty() || by_line_.back().line != stretch.line) by_line_.push_back({.line = stretch.line});
-  by_line_.back().end_time = motion.time_at(use.to);
+  by_line_.back().end_time = end_time;
   by_line_.back().removed.add(removed);
 }
 

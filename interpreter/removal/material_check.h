@@ -113,7 +113,8 @@ class MaterialCheck {
   void show_moments(const motion::Stretch& stretch);
   void append_sweeps(const TipPath& piece, bool is_feed);
   void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role);
-  bool may_meet(const solids::RevolvedBody& body, const stock::SweepPath& path) const;
+  bool may_meet(const solids::RevolvedBody& body, const stock::SweepPath& path, double margin = 0) const;
+  void divide(const motion::Stretch& stretch, double begin, double end);
   void cut_waiting();
   void account(std::size_t sweep, const stock::SweepOutcome& outcome);
   void look_at(std::size_t sweep, const stock::SweepOutcome& outcome);

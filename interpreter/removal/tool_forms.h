@@ -27,6 +27,8 @@ class ToolForms {
   const solids::RevolvedBody* nose_with_clearance() const { return pointer(nose_with_clearance_); }
   /// The largest distance of any point of the tool and the nose from the tip, mm.
   double reach() const { return reach_; }
+  /// The same of the cutter alone; 0 without one.
+  double cutter_reach() const { return tool_.cutter ? tool_.cutter->reach(0) : 0; }
 
  private:
   using Body = std::optional<solids::RevolvedBody>;
