@@ -485,7 +485,7 @@ void MaterialHistory::find_crossings(const BlockRecord& record, const BlockState
 /// What is removed grows from 0 while a block goes on.
 std::vector<double> MaterialHistory::removed_crossings(const SurroundingsLimit& limit, const BlockRecord& record,
                                                        const BlockState& from, const BlockState& to) const {
-  constexpr int kHalvings = 48;
+  constexpr double kMoment = 1e-7;  // Seconds: less than any way that matters.
   if (!limit.is_beyond(from.last.volume) && limit.is_beyond(0)) return {record.start};
   if (limit.is_beyond(0) || !limit.is_beyond(to.last.volume)) return {};
   const auto is_beyond_at = [&](double time) {
@@ -497,8 +497,9 @@ std::vector<double> MaterialHistory::removed_crossings(const SurroundingsLimit& 
   };
   double before = record.start;
   double after = record.end;
-  for (int i = 0; i < kHalvings && before < after; ++i) {
+  while (after - before > kMoment) {
     const double middle = before + (after - before) / 2;
+    if (!(middle > before && middle < after)) break;
     (is_beyond_at(middle) ? after : before) = middle;
   }
   return {after};
