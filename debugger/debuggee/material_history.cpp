@@ -312,6 +312,7 @@ const MaterialHistory::CutMoment& MaterialHistory::moment_of(const Simulation& s
   StatePointer state = before(block);
   if (is_in_block) {
     const auto within = std::make_shared<BlockState>(*state);
+    within->check.stop_asking();
     within->check.forget_past();
     feed(within->check, record(block), time);
     within->check.settle();
@@ -363,6 +364,7 @@ std::vector<MaterialHistory::InCutPiece> MaterialHistory::in_cut_pieces(const Bl
   constexpr double kMaxPieces = 4096;
   const MotionRun run = run_around(record, piece);
   MaterialCheck check = from.check;
+  check.stop_asking();
   feed(check, record, record.pieces[run.begin].start());
   check.settle();
   const double spacing = check.stock().spacing();
@@ -490,6 +492,7 @@ std::vector<double> MaterialHistory::removed_crossings(const SurroundingsLimit& 
   if (limit.is_beyond(0) || !limit.is_beyond(to.last.volume)) return {};
   const auto is_beyond_at = [&](double time) {
     MaterialCheck check = from.check;
+    check.stop_asking();
     check.forget_past();
     feed(check, record, time);
     check.settle();

@@ -147,6 +147,7 @@ void MaterialCheck::show_moments(const motion::Stretch& stretch) {
 }
 
 void MaterialCheck::append_sweeps(const TipPath& piece, bool is_feed) {
+  if (!asks_) return append_sweep(forms_->cutter(), piece, Role::Cut);
   if (!is_feed) {
     append_sweep(forms_->passing_cutter(), piece, Role::RapidCutter);
   } else if (spindle_.function == 5) {

@@ -42,6 +42,8 @@ class MaterialCheck {
   void finish();
 
   // For a run that goes back, too. A copy that is made while nothing waits goes on by itself, and shares the stock.
+  /// From now on cuts alone, and finds no incidents but of the cutter's depth: for a copy of which the stock matters.
+  void stop_asking() { asks_ = false; }
   /// Cuts what waits.
   void settle() { cut_waiting(); }
   /// Forgets what has been noted of lines, stretches and incidents that are over, so that a copy takes little. From
@@ -167,6 +169,7 @@ class MaterialCheck {
   bool has_cuts_to_show_ = false;
   std::vector<RemovedByTool> by_tool_;
   std::vector<RemovedByLine> by_line_;
+  bool asks_ = true;
   bool notes_stretches_ = false;
   std::vector<Removed> by_stretch_;
   std::vector<solids::BoundingBox> loose_;  ///< Where pieces have come free.
