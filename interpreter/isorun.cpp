@@ -589,7 +589,7 @@ ExitStatus run_main(int argc, char** argv) {
                      {"How fine the blank is cut; else as the setup says",
                       "Quanto è fine il taglio del grezzo; altrimenti\ncome dice l'attrezzaggio"});
   program.add_option("--window", options.window, {"X0,Y0,X1,Y1", "X0,Y0,X1,Y1"},
-                     {"Cut this part of the blank alone, in the setup's frame",
+                     {"Cut this part of the blank alone (setup's frame)",
                       "Taglia solo questa parte del grezzo, nel\nriferimento dell'attrezzaggio"});
   program.add_option("--vgpl", options.vgpl, {"VALUE", "VALORE"},
                      {"Value of VGPL (else 0)", "Valore di VGPL (altrimenti 0)"});

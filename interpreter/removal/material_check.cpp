@@ -84,8 +84,8 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::
   if (waiting_.size() == kBatch) cut_waiting();
 }
 
-/// Sets the pieces of a stretch between two path parameters. A long tool needs many of them while its axis turns, but where
-/// only the cutter may come near the blank, those that it needs are enough.
+/// Sets the pieces of a stretch between two path parameters. A long tool needs many of them while its axis turns, but
+/// where only the cutter may come near the blank, those that it needs are enough.
 void MaterialCheck::divide(const motion::Stretch& stretch, double begin, double end) {
   const double tolerance = stock_.spacing() / 40;
   const double reach = forms_->reach();
@@ -96,8 +96,8 @@ void MaterialCheck::divide(const motion::Stretch& stretch, double begin, double 
   };
   append(cutter_reach > 0 ? cutter_reach : reach);
   if (!(cutter_reach > 0 && cutter_reach < reach)) return;
-  // How far a point of the tool may be from where these pieces have it: within the tolerance at both ends of the cutter,
-  // and beyond as on a line through them.
+  // How far a point of the tool may be from where these pieces have it: within the tolerance at both ends of the
+  // cutter, and beyond as on a line through them.
   const double error = 2 * tolerance * reach / cutter_reach;
   const bool is_cutter_alone = std::none_of(pieces_.begin(), pieces_.end(), [&](const TipPath& piece) {
     const SweepPath tip = moved(piece.path, -workpiece_.origin);
@@ -393,6 +393,7 @@ void MaterialCheck::look_closely(Stock before) {
       if (sweeps_[done].purpose == SweepPurpose::Cut) cuts.push_back(sweeps_[done]);
     if (!cuts.empty()) before.apply(cuts, workers_);
     if (question.is_first) {
+      question.episode->before = before;
       find_first_touch(*question.episode, before);
     } else {
       ++looked_at_;
@@ -455,7 +456,9 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
     const Vec3 point = incident.point - workpiece_.origin;
     if (incident.kind == IncidentKind::SpindleStopped) return;
     incident.shaped_by.reset();
-    if (const auto tag = before.cut_by(point.x(), point.y())) incident.shaped_by = *tag;
+    // As it was found: meanwhile the incident itself has cut.
+    const Stock& found = episode.before ? *episode.before : before;
+    if (const auto tag = found.cut_by(point.x(), point.y())) incident.shaped_by = *tag;
   };
   set_shaper();
   switch (incident.kind) {

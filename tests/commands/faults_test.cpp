@@ -120,10 +120,10 @@ TEST(Faults, NoThreadsAreNoFailure) {
   if (!support::kTriesAll) GTEST_SKIP() << "sanitizers take what address space there is";
   const support::TemporaryFolder folder;
   folder.write("good.iso", short_moves(100'000));
-  // Each thread would take 8 MiB of it for its stack.
+  // Each thread would take more than there is for its stack.
   const int status =
       shell("cd " + folder.path() +
-            " && ulimit -v 24000 && ulimit -s 16000 && " ISOCNC_BIN_DIR "/isolint --jobs 4 good.iso 2> err");
+            " && ulimit -v 40000 && ulimit -s 64000 && " ISOCNC_BIN_DIR "/isolint --jobs 4 good.iso 2> err");
   EXPECT_EQ(status, 0) << text_of_file(folder.path("err"));
 }
 
