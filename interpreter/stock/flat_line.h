@@ -12,6 +12,9 @@ namespace isocnc::stock {
 /// The square root, or 0 of what is not positive. Without a branch, so that loops over it become vectors.
 inline double square_root(double square) { return std::sqrt((square + std::abs(square)) / 2); }
 
+/// The value, or 0 of what is negative. Without a branch, too.
+inline float positive(float value) { return (value + std::abs(value)) / 2; }
+
 /// The half chord of a circle at a distance from its center; negative if there is none.
 inline double half_chord(double radius, double aside) {
   const double square = radius * radius - aside * aside;

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "interpreter/stock/flat_line.h"
+
 namespace isocnc::stock {
 
 using geometry::Vec2;
@@ -20,9 +22,6 @@ constexpr float kHuge = 1e20F;
 constexpr double kFloatError = 1e-5;  ///< Far more than rounding to floats moves a point, as a part of the size.
 constexpr double kConverged = 1e-7;   // mm
 constexpr double kNoSkin = 1e-4;      ///< Pieces of a body that are so near, mm, have nothing between them.
-
-/// The value, or 0 of what is negative. Without a branch, so that loops over it become vectors.
-float positive(float value) { return (value + std::abs(value)) / 2; }
 
 /// Without the upper part of its core that is above `ceiling` all along the travel.
 solids::BodyPiece below(double ceiling, const solids::BodyPiece& piece, const solids::AxisPlacement& at,

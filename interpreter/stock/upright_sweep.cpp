@@ -175,11 +175,12 @@ class ClearedRow {
 };
 
 constexpr int kGroup = 8;  ///< Dexels that are looked at together.
-using RowGroup = Eigen::Array<float, kGroup, 1>;
 
-bool are_at_most(float height, const float* tops) { return Eigen::Map<const RowGroup>(tops).maxCoeff() <= height; }
+using Group = Eigen::Array<float, kGroup, 1>;
 
-/// Tells for eight dexels at once, without a square root, that they surely end below a ball that moves along a level
+bool are_at_most(float height, const float* values) { return Eigen::Map<const Group>(values).maxCoeff() <= height; }
+
+/// Tells of dexels, without a square root, that they surely end below a ball that moves along a level
 /// line. In short moves most dexels do, since the moves before have cut them.
 class BallTest {
  public:
@@ -187,34 +188,47 @@ class BallTest {
     const LowerSurface& lower = column.lower.front();
     is_usable_ = column.lower.size() == 1 && column.is_flat_above() && lower.kind == Kind::Round && lower.middle == 0 &&
                  lower.start == 0;
-    direction_ = path.direction.cast<float>();
+    x_ = static_cast<float>(path.direction.x());
+    y_ = static_cast<float>(path.direction.y());
     length_ = static_cast<float>(path.length);
     middle_ = static_cast<float>(lower.z + origin.bottom);
     const double square = lower.rounding * lower.rounding;
     // The errors of floats: of places along the path, and of heights.
     const double error = 1e-6 * (path.length + 4 * column.radius + std::abs(middle_));
     square_ = static_cast<float>(square + 8 * column.radius * error + 1e-6 * square);
-    steps_ = static_cast<float>(step) * RowGroup::LinSpaced(0, kGroup - 1);
+    step_ = static_cast<float>(step);
   }
 
   bool is_usable() const { return is_usable_; }
-  /// As measure() has it.
-  bool are_below(const float* tops, double u, double rise) const {
-    const RowGroup at = steps_ + static_cast<float>(u);
-    const auto y = static_cast<float>(rise);
-    const RowGroup along = at * direction_.x() + y * direction_.y();
-    const RowGroup aside = at * direction_.y() - y * direction_.x();
-    const RowGroup beyond = along - along.max(0.0F).min(length_);
-    const RowGroup below = (middle_ - Eigen::Map<const RowGroup>(tops)).max(0.0F);
-    return !((square_ - aside.square() - beyond.square() - below.square()).maxCoeff() > 0);
+  /// Sets a number above 0 for each dexel that may end within the ball. `u` and `rise` as measure() has them. In a loop
+  /// that becomes vectors.
+  void find(const float* tops, int size, double u, double rise, float* within) const {
+    const float x = x_;
+    const float y = y_;
+    const float length = length_;
+    const float middle = middle_;
+    const float square = square_;
+    const float step = step_;
+    const auto first = static_cast<float>(u);
+    const float along_first = static_cast<float>(rise) * y;
+    const float aside_first = static_cast<float>(rise) * x;
+    for (int i = 0; i < size; ++i) {
+      const float at = first + static_cast<float>(i) * step;
+      const float along = at * x + along_first;
+      const float aside = at * y - aside_first;
+      const float beyond = along - length + positive(length - positive(along));
+      const float below = positive(middle - tops[i]);
+      within[i] = square - aside * aside - beyond * beyond - below * below;
+    }
   }
 
  private:
-  Eigen::Vector2f direction_;
+  float x_;  ///< Of the path's direction.
+  float y_;
   float length_;
   float middle_;
   float square_;
-  RowGroup steps_;
+  float step_;
   bool is_usable_;
 };
 
@@ -300,6 +314,7 @@ void sweep(const RevolvedColumn& column, const UprightLine& line, const UprightL
   const ClearedRow cleared(is_flat, line, sink.cuts() ? before : nullptr);
   const auto lowest = static_cast<float>(origin.bottom + column.bottom);
   Squares squares;
+  std::array<float, Tile::kSize> within;  // As BallTest has it.
   FlatLine::Rows rows;
   const int first_row = grid.first_row(std::min(from.y(), to.y()) - column.radius);
   const int last_row = grid.first_row(std::max(from.y(), to.y()) + column.radius);
@@ -320,10 +335,12 @@ void sweep(const RevolvedColumn& column, const UprightLine& line, const UprightL
       if (first >= last) return;
       if (is_flat) return sink.take_run(row, first, last, {origin.bottom + column.bottom, origin.top + column.top});
       const float* const tops = reaches_above ? sink.tops_to_cut(row, first) : nullptr;
+      if (tops && ball.is_usable()) ball.find(tops, last - first, start + first * step, rise, within.data());
       int waiting = first;  // From here on, dexels are to be taken.
       for (int i = first; tops && i + kGroup <= last; i += kGroup) {
-        const float* const group = tops + (i - first);
-        if (!(ball.is_usable() ? ball.are_below(group, start + i * step, rise) : are_at_most(lowest, group))) continue;
+        const bool is_free =
+            ball.is_usable() ? are_at_most(0, within.data() + (i - first)) : are_at_most(lowest, tops + (i - first));
+        if (!is_free) continue;
         if (waiting < i) take(waiting, i);
         waiting = i + kGroup;
       }
