@@ -96,6 +96,7 @@ void MaterialCheck::divide(const motion::Stretch& stretch, double begin, double 
   };
   append(cutter_reach > 0 ? cutter_reach : reach);
   if (!(cutter_reach > 0 && cutter_reach < reach)) return;
+  if (pieces_.empty() || !std::holds_alternative<stock::TurningPath>(pieces_.front().path)) return;
   // How far a point of the tool may be from where these pieces have it: within the tolerance at both ends of the
   // cutter, and beyond as on a line through them.
   const double error = 2 * tolerance * reach / cutter_reach;
