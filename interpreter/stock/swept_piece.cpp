@@ -386,9 +386,9 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
       for (int i = 0; i < size; ++i) {
         const auto lane = static_cast<std::size_t>(i);
         open[static_cast<std::size_t>(count)] = i;
-        count += !(clearances[lane] > 0) & (tops[lane] > kNothing) ? 1 : 0;
+        const bool is_open = !(clearances[lane] > 0) && tops[lane] > kNothing;
+        count += is_open ? 1 : 0;
       }
-      if (count == 0) continue;
       for (int i = 0; i < count; ++i) {
         const int lane = open[static_cast<std::size_t>(i)];
         sink.set(0, take(row, group + lane));

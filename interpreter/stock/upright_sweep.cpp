@@ -176,9 +176,9 @@ class ClearedRow {
 
 constexpr int kGroup = 8;  ///< Dexels that are looked at together.
 
-using Group = Eigen::Array<float, kGroup, 1>;
+using RowGroup = Eigen::Array<float, kGroup, 1>;
 
-bool are_at_most(float height, const float* values) { return Eigen::Map<const Group>(values).maxCoeff() <= height; }
+bool are_at_most(float height, const float* values) { return Eigen::Map<const RowGroup>(values).maxCoeff() <= height; }
 
 /// Tells of dexels, without a square root, that they surely end below a ball that moves along a level
 /// line. In short moves most dexels do, since the moves before have cut them.
