@@ -371,15 +371,25 @@ void MaterialCheck::end_way() {
 
 /// Goes through the batch once more, up to the sweeps in question: each is compared with the stock as it was then.
 void MaterialCheck::look_closely(Stock before) {
+  enum class About : std::uint8_t { Before, FirstTouch, Worst };
   struct Question {
     std::size_t sweep;
     OpenIncident* episode;
-    bool is_first;
+    About about;
+  };
+  // What the line itself has cut before it was found to touch anything, at most a skin, has not shaped it.
+  const auto first_of_line = [&](std::size_t sweep) {
+    const auto line = [&](std::size_t each) { return waiting_[uses_[each].stretch].line; };
+    while (sweep > 0 && line(sweep - 1) == line(sweep)) --sweep;
+    return sweep;
   };
   std::vector<Question> questions;
   const auto ask = [&](OpenIncident& episode) {
-    if (episode.first_sweep) questions.push_back({*episode.first_sweep, &episode, true});
-    if (episode.deepest_sweep) questions.push_back({*episode.deepest_sweep, &episode, false});
+    if (episode.first_sweep) {
+      questions.push_back({first_of_line(*episode.first_sweep), &episode, About::Before});
+      questions.push_back({*episode.first_sweep, &episode, About::FirstTouch});
+    }
+    if (episode.deepest_sweep) questions.push_back({*episode.deepest_sweep, &episode, About::Worst});
   };
   for (auto& [key, episode] : open_) ask(episode);
   for (OpenIncident& episode : closed_) ask(episode);
@@ -393,12 +403,17 @@ void MaterialCheck::look_closely(Stock before) {
     for (; done < question.sweep; ++done)
       if (sweeps_[done].purpose == SweepPurpose::Cut) cuts.push_back(sweeps_[done]);
     if (!cuts.empty()) before.apply(cuts, workers_);
-    if (question.is_first) {
-      question.episode->before = before;
-      find_first_touch(*question.episode, before);
-    } else {
-      ++looked_at_;
-      find_worst(*question.episode, before);
+    switch (question.about) {
+      case About::Before:
+        question.episode->before = before;
+        break;
+      case About::FirstTouch:
+        find_first_touch(*question.episode, before);
+        break;
+      case About::Worst:
+        ++looked_at_;
+        find_worst(*question.episode, before);
+        break;
     }
   }
   for (auto& [key, episode] : open_) episode.first_sweep = episode.deepest_sweep = std::nullopt;
@@ -457,7 +472,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
     const Vec3 point = incident.point - workpiece_.origin;
     if (incident.kind == IncidentKind::SpindleStopped) return;
     incident.shaped_by.reset();
-    // As it was found: meanwhile the incident itself has cut.
+    // As it was found: meanwhile the motion itself has cut.
     const Stock& found = episode.before ? *episode.before : before;
     if (const auto tag = found.cut_by(point.x(), point.y())) incident.shaped_by = *tag;
   };

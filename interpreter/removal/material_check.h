@@ -109,7 +109,7 @@ class MaterialCheck {
     double deepest = 0;                        ///< Of the sweeps that have been compared, mm.
     std::optional<std::size_t> first_sweep;    ///< Of the present batch, where it begins there.
     std::optional<std::size_t> deepest_sweep;  ///< Of the present batch, where it is worst there.
-    std::optional<stock::Stock> before;        ///< As it was when the incident began.
+    std::optional<stock::Stock> before;        ///< As the line has found it on which the incident began.
   };
   using IncidentKey = std::pair<IncidentKind, ToolPart>;
 

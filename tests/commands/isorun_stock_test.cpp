@@ -171,17 +171,17 @@ TEST_F(StockOfRuns, DoesNotCallAPieceLooseThatGoesOnOutsideTheWindow) {
 /// A finding leads to the line that left what is met, or that stopped the spindle.
 TEST_F(StockOfRuns, IsRelatedToTheLineThatShapedIt) {
   folder_.write("rapid.iso",
-                "M06 T101001\nS12000 M03\nG00 X50 Y50 Z5\nG01 Z-4 F1000\nX150\nG00 X100\nZ-8\nZ50\nM05\n"
+                "M06 T101001\nS12000 M03\nG00 X50 Y50 Z5\nG01 Z-4 F1000\nX150\nG00 Z5\nX100\nZ-8\nZ50\nM05\n"
                 "G00 X20\nG01 Z-2 F1000\nG00 Z50\nM02\n");
   folder_.write("rapid.setup.json", R"({"stock": {"box": [[0, 0, -20], [200, 100, 0]]}, "resolution": 0.5})");
   const CommandResult text = run_command({"isolint", "--verify", "rapid.iso"}, {.folder = folder_.path()});
   EXPECT_EQ(text.status, 1);
   EXPECT_THAT(text.out, AllOf(HasSubstr("error[E150]"), HasSubstr("= rapid.iso:5:1: what is met was last cut here")));
-  EXPECT_THAT(text.out, AllOf(HasSubstr("error[E158]"), HasSubstr("= rapid.iso:9:1: the spindle was stopped here")));
+  EXPECT_THAT(text.out, AllOf(HasSubstr("error[E158]"), HasSubstr("= rapid.iso:10:1: the spindle was stopped here")));
   const CommandResult italian =
       run_command({"isolint", "--lang", "it", "--verify", "rapid.iso"}, {.folder = folder_.path()});
   EXPECT_THAT(italian.out, HasSubstr("= rapid.iso:5:1: ciò che si incontra è stato tagliato per ultimo qui"));
-  EXPECT_THAT(italian.out, HasSubstr("= rapid.iso:9:1: il mandrino è stato fermato qui"));
+  EXPECT_THAT(italian.out, HasSubstr("= rapid.iso:10:1: il mandrino è stato fermato qui"));
 }
 
 TEST_F(StockOfRuns, RefusesWindowsAndResolutionsThatAreNone) {

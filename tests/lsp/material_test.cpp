@@ -105,7 +105,7 @@ TEST_F(Material, IsNotToldOfAnEditedText) {
 /// A rapid goes into what the line above has left. The relation goes along with its line, and away with it.
 TEST_F(Material, LeadsToTheLineThatShapedIt) {
   start();
-  open("M06 T101001\nS12000 M03\nG00 X40 Y-20\nZ-4\nG01 Y120 F2000\nG00 Y50\nZ-6\nZ50\nM05\nM02\n");
+  open("M06 T101001\nS12000 M03\nG00 X40 Y-20\nZ-4\nG01 Y120 F2000\nG00 Z5\nY50\nZ-6\nZ50\nM05\nM02\n");
   session_.wait_for("workspace/codeLens/refresh");
   runs_.hold();
   const auto shaped_by = [&]() -> int {
