@@ -438,16 +438,14 @@ std::vector<Incident> MaterialHistory::incidents_until_apart(const BlockState& t
   constexpr std::uint64_t kAtOnce = 16;
   constexpr std::uint64_t kMaxBlocks = 4096;
   MaterialCheck check = to.check;
-  bool goes_on = check.is_hitting();
-  for (std::uint64_t block = to.block; goes_on && block < to.block + kMaxBlocks; block += kAtOnce) {
+  for (std::uint64_t block = to.block; check.is_hitting() && block < to.block + kMaxBlocks; block += kAtOnce) {
     bool is_end = true;
     const auto pass_block = [&](Simulation& simulation) {
       const BlockRecord record = record_block(simulation);
       is_end = false;
-      if (!goes_on) return;
+      if (!check.is_hitting()) return;
       feed(check, record, kToTheEnd);
       check.settle();
-      goes_on = check.is_hitting();
     };
     debuggee_.pass_blocks(block, block + kAtOnce, pass_block, [](Simulation&) {});
     if (is_end) break;

@@ -111,11 +111,12 @@ Scenes::ScenePointer Scenes::make(const Configuration& configuration, const std:
     if (missing_shapes_.emplace(file, place.line, place.column).second)
       mistakes_.push_back({.file = file, .place = place, .mistake = std::move(mistake), .is_of_shape = true});
   };
-  const auto shape_in = [&]<class Shape>(std::variant<std::shared_ptr<const Shape>, Mistake> loaded,
-                                         const ShapeRequest& request) -> std::shared_ptr<const Shape> {
-    if (auto* const shape = std::get_if<0>(&loaded)) return std::move(*shape);
-    complain(request, std::get<Mistake>(std::move(loaded)));
-    return nullptr;
+  const auto shape_in = [&](auto loaded, const ShapeRequest& request) {
+    if (const auto* const mistake = std::get_if<Mistake>(&loaded)) {
+      complain(request, *mistake);
+      return std::variant_alternative_t<0, decltype(loaded)>{};
+    }
+    return std::get<0>(std::move(loaded));
   };
   const ShapeSource source{.mesh =
                                [&](const ShapeRequest& request) {
