@@ -1,5 +1,3 @@
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -14,6 +12,7 @@
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/command_line/progress.h"
+#include "interpreter/command_line/run_values.h"
 #include "interpreter/command_line/source_options.h"
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/configuration/scenes.h"
@@ -25,7 +24,6 @@
 #include "interpreter/run_report.h"
 #include "interpreter/running/error_message.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/syntax/number.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/same_file.h"
@@ -42,6 +40,8 @@ using namespace dialect::literals;
 using dialect::Language;
 using dialect::Text;
 
+using command_line::read_count;
+using command_line::read_decimal;
 using system::ExitStatus;
 
 /// The options of the command line as text. Numbers are parsed later, when the language of error messages is known.
@@ -57,8 +57,7 @@ struct RunCommandOptions {
   bool json = false;
   bool verify = false;
   std::string language;
-  std::vector<std::string> settings;
-  std::string vgpl = "0";
+  command_line::RunValues values;
   std::string until;
   std::optional<std::string> restart_at;
   std::string output;
@@ -76,38 +75,6 @@ struct RunCommandOptions {
 
 void complain(std::string_view what) { command_line::complain("isorun", what); }
 
-/// Parses a number as in programs, with sign, digits and point only.
-std::optional<double> read_decimal(std::string_view text) {
-  if (text.empty() || text.find_first_not_of("+-.0123456789") != std::string_view::npos) return std::nullopt;
-  const syntax::Number number = syntax::scan_number(text.data(), text.data() + text.size());
-  if (number.malformed || std::isnan(number.value)) return std::nullopt;
-  return number.value;
-}
-
-/// Parses a number from 1 to `maximum`, of digits only; otherwise none.
-std::optional<std::size_t> read_count(std::string_view text, std::size_t maximum) {
-  std::size_t count = 0;
-  const char* const end = text.data() + text.size();
-  const auto [after, error] = std::from_chars(text.data(), end, count);
-  if (error != std::errc{} || after != end || count < 1 || count > maximum) return std::nullopt;
-  return count;
-}
-
-/// Parses a setting such as V3=1.5.
-bool read_register(std::string_view setting, running::RunOptions& run) {
-  const std::size_t equals = setting.find('=');
-  if (!setting.starts_with('V') || equals == std::string_view::npos) return false;
-  const auto reg = read_count(setting.substr(1, equals - 1), dialect::kRegisterCount);
-  const auto value = read_decimal(setting.substr(equals + 1));
-  if (!reg || !value) return false;
-  run.registers[*reg] = *value;
-  return true;
-}
-
-constexpr Text kWrongSetting{"--set takes a register and a plain number, V1=0 to V30=-2.5, not {}",
-                             "--set vuole un registro e un numero semplice, da V1=0 a V30=-2.5, non {}"};
-constexpr Text kWrongVgpl{"--vgpl takes a plain number, such as -2.5, not {}",
-                          "--vgpl vuole un numero semplice, come -2.5, non {}"};
 constexpr Text kWrongUntil{"--until takes a line, counted from 1, not {}",
                            "--until vuole una riga, contata da 1, non {}"};
 constexpr Text kWrongRestart{"--restart-at takes a line, counted from 1, not {}",
@@ -157,11 +124,10 @@ std::nullopt_t refuse(const Text& why, std::string_view value, const RunCommandO
 /// The options of the run; none after an error message.
 std::optional<running::RunOptions> read_run_options(const RunCommandOptions& options) {
   running::RunOptions run;
-  for (const std::string& setting : options.settings)
-    if (!read_register(setting, run)) return refuse(kWrongSetting, setting, options);
-  const auto vgpl = read_decimal(options.vgpl);
-  if (!vgpl) return refuse(kWrongVgpl, options.vgpl, options);
-  run.vgpl = *vgpl;
+  if (const auto problem = command_line::set_run_values(options.values, options.reader_language(), run)) {
+    complain(*problem);
+    return std::nullopt;
+  }
   if (!options.until.empty()) {
     const auto until = read_count(options.until, std::numeric_limits<std::size_t>::max());
     if (!until) return refuse(kWrongUntil, options.until, options);
@@ -591,12 +557,7 @@ ExitStatus run_main(int argc, char** argv) {
   program.add_option("--window", options.window, {"X0,Y0,X1,Y1", "X0,Y0,X1,Y1"},
                      {"Cut this part of the blank alone (setup's frame)",
                       "Taglia solo questa parte del grezzo, nel\nriferimento dell'attrezzaggio"});
-  program.add_option("--vgpl", options.vgpl, {"VALUE", "VALORE"},
-                     {"Value of VGPL (else 0)", "Valore di VGPL (altrimenti 0)"});
-  program
-      .add_option("--set", options.settings, {"V=VALUE", "V=VALORE"},
-                  {"Value of a register at the start: V3=1.5", "Valore iniziale di un registro: V3=1.5"})
-      .takes_one();
+  command_line::add_run_values(program, options.values);
   program.add_option(
       "--machine", options.machine, command_line::kFileValue,
       {"The machine of this file, not of the isocnc.json", "La macchina di questo file, non dell'isocnc.json"});
