@@ -60,7 +60,7 @@ std::vector<std::string> words_of(const std::string& command) {
 
 /// The words of a command that is one of our programs and nothing else; no words for others.
 std::vector<std::string> our_command(const std::string& command) {
-  static const std::set<std::string> kOurs = {"isolint", "isofmt", "isorun"};
+  static const std::set<std::string> kOurs = {"isolint", "isofmt", "isorun", "isodiff"};
   std::vector<std::string> words = words_of(command);
   if (words.empty() || command.find_first_of("|>;&~'\"") != std::string::npos) return {};
   if (command.find(" --watch") != std::string::npos) return {};  // It does not end: watch_test.py.

@@ -25,7 +25,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 /// What all our programs answer in the same way.
 class Program : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, Program, testing::Values("isolint", "isofmt", "isorun", "isols"),
+INSTANTIATE_TEST_SUITE_P(All, Program, testing::Values("isolint", "isofmt", "isorun", "isodiff", "isols"),
                          [](const auto& program) { return program.param; });
 
 TEST_P(Program, HelpFitsTheScreen) {

@@ -18,7 +18,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 ROOT = Path(__file__).resolve().parents[2]
-PROGRAMS = ["isolint", "isofmt", "isorun", "isols", "isodap"]
+PROGRAMS = ["isolint", "isofmt", "isorun", "isodiff", "isols", "isodap"]
 VERSION = re.search(r"project\(isocnc VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 BROKEN = "examples/broken/pocket.iso"
 

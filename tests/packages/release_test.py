@@ -21,7 +21,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 VERSION = re.search(r"project\(isocnc VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
-PROGRAMS = ["isolint", "isofmt", "isorun", "isols", "isodap"]
+PROGRAMS = ["isolint", "isofmt", "isorun", "isodiff", "isols", "isodap"]
 NOTICES = "third-party-notices.txt"
 LISTS = {"SHA256SUMS", "sbom.spdx.json", "release-notes.md", NOTICES}
 PROGRAMS_OF = {"linux-x64": f"isocnc-{VERSION}-linux-x64.tar.gz", "linux-arm64": f"isocnc-{VERSION}-linux-arm64.tar.gz",

@@ -1,0 +1,176 @@
+#include "interpreter/comparison/action_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace isocnc::comparison {
+
+using geometry::Pose;
+using geometry::Vec3;
+
+static constexpr double kFullTurn = 2 * std::numbers::pi;
+/// Maximum number of chords of a motion.
+static constexpr double kMaxChords = 4096;
+/// Maximum number of distances between a point and a line in one Hausdorff distance.
+static constexpr std::size_t kMaxDistances = 20'000'000;
+
+static double between(double from, double to, double part) { return from + part * (to - from); }
+
+ActionPath::ActionPath(const RecordedRun& run, const MachineAction& motion)
+    : run_(run), motion_(motion), is_arc_(motion.arc != MachineAction::kNone) {
+  if (!is_arc_) return;
+  const ActionArc& arc = run.arcs[motion.arc];
+  helix_ = geometry::helix(motion.from.tip, motion.to.tip, arc.center, arc.normal, arc.sweep_deg);
+}
+
+Pose ActionPath::at(double part) const {
+  if (motion_.is_by_joints) {
+    const double length = motion_.tool == MachineAction::kNone ? 0 : run_.tools[motion_.tool].length;
+    const auto from = kinematics::inverse(run_.kinematics, kinematics::coordinates(motion_.from), length);
+    const auto to = kinematics::inverse(run_.kinematics, kinematics::coordinates(motion_.to), length);
+    return kinematics::pose(kinematics::forward(run_.kinematics, from + part * (to - from), length));
+  }
+  Pose pose{motion_.from.tip + part * (motion_.to.tip - motion_.from.tip), between(motion_.from.b, motion_.to.b, part),
+            between(motion_.from.c, motion_.to.c, part)};
+  if (!is_arc_) return pose;
+  const double angle = part * helix_.sweep;
+  pose.tip = helix_.center + std::cos(angle) * helix_.out + std::sin(angle) * helix_.side + part * helix_.rise;
+  return pose;
+}
+
+std::optional<double> ActionPath::nearest(const Vec3& point, double from_part) const {
+  if (motion_.is_by_joints) return std::nullopt;
+  if (!is_arc_) {
+    const Vec3 along = motion_.to.tip - motion_.from.tip;
+    const double square = along.squaredNorm();
+    if (!(square > 0)) return std::nullopt;
+    return std::clamp(along.dot(point - motion_.from.tip) / square, from_part, 1.0);
+  }
+  // The angle depends on the rise alone where the arc's ends are not equally far from its center; a second look settles
+  // it.
+  double part = from_part;
+  for (int look = 0; look < 2; ++look) {
+    const Vec3 there = point - helix_.center - part * helix_.rise;
+    double angle = std::atan2(there.dot(helix_.side), there.dot(helix_.out));
+    const double middle = from_part * helix_.sweep;
+    // The first turn that is not more than a bit before the place from which on it counts.
+    while (angle < middle - std::numbers::pi / 2) angle += kFullTurn;
+    part = std::clamp(angle / helix_.sweep, from_part, 1.0);
+  }
+  return part;
+}
+
+double ActionPath::length() const {
+  if (is_arc_) return std::hypot(helix_.sweep * helix_.out.norm(), helix_.rise.norm());
+  return (motion_.to.tip - motion_.from.tip).norm();
+}
+
+std::vector<Vec3> chain_of(const RecordedRun& run, std::span<const MachineAction> actions, double deviation) {
+  std::vector<Vec3> chain;
+  for (const MachineAction& action : actions) {
+    if (!action.is_motion()) continue;
+    if (chain.empty()) chain.push_back(action.from.tip);
+    const ActionPath path(run, action);
+    double chords = 1;
+    if (action.arc != MachineAction::kNone) {
+      const ActionArc& arc = run.arcs[action.arc];
+      const double radius = (action.from.tip - arc.center).norm();
+      const double step = 2 * std::acos(std::max(0.5, 1 - deviation / std::max(radius, deviation)));
+      chords = std::abs(arc.sweep_deg) / 360 * kFullTurn / step;
+    } else if (action.is_by_joints) {
+      chords = 256;
+    }
+    const int count = static_cast<int>(std::clamp(std::ceil(chords), 1.0, kMaxChords));
+    for (int i = 1; i < count; ++i) chain.push_back(path.at(static_cast<double>(i) / count).tip);
+    chain.push_back(action.to.tip);
+  }
+  return chain;
+}
+
+namespace {
+
+/// Finds how far the points of a chain are at most from another chain.
+class FarthestPoint {
+ public:
+  FarthestPoint(std::span<const Vec3> other, double accuracy) : other_(other), accuracy_(accuracy) {}
+
+  bool look_at(std::span<const Vec3> chain) {
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      if (!look_at(chain[i], chain[i + 1])) return false;
+    return true;
+  }
+  double farthest() const { return farthest_; }
+
+ private:
+  struct ChainPart {
+    Vec3 from;
+    Vec3 to;
+  };
+
+  static double square_of(const Vec3& point, const Vec3& from, const Vec3& along, double length) {
+    const Vec3 there = point - from;
+    const double part = length > 0 ? std::clamp(along.dot(there) / length, 0.0, 1.0) : 0;
+    return (there - part * along).squaredNorm();
+  }
+
+  /// How far both ends of a part are from the chain, and how far any of its points can be: the distance from one line
+  /// is greatest at an end.
+  struct Distances {
+    double from = std::numeric_limits<double>::infinity();
+    double to = std::numeric_limits<double>::infinity();
+    double maximum = std::numeric_limits<double>::infinity();
+  };
+  Distances distances(const ChainPart& part) {
+    Distances squares;
+    for (std::size_t i = 0; i + 1 < other_.size(); ++i) {
+      const Vec3 along = other_[i + 1] - other_[i];
+      const double length = along.squaredNorm();
+      const double from = square_of(part.from, other_[i], along, length);
+      const double to = square_of(part.to, other_[i], along, length);
+      squares.from = std::min(squares.from, from);
+      squares.to = std::min(squares.to, to);
+      squares.maximum = std::min(squares.maximum, std::max(from, to));
+    }
+    lines_ += other_.size();
+    return {std::sqrt(squares.from), std::sqrt(squares.to), std::sqrt(squares.maximum)};
+  }
+
+  /// Divides a part until it can hold no point that is farther.
+  bool look_at(const Vec3& from, const Vec3& to) {
+    parts_.assign(1, {from, to});
+    while (!parts_.empty()) {
+      const ChainPart part = parts_.back();
+      parts_.pop_back();
+      const Distances far = distances(part);
+      farthest_ = std::max({farthest_, far.from, far.to});
+      if (lines_ > kMaxDistances) return false;
+      // The distance changes at most as fast as the point, too.
+      const double by_length = (far.from + far.to + (part.to - part.from).norm()) / 2;
+      if (std::min(far.maximum, by_length) <= farthest_ + accuracy_) continue;
+      const Vec3 middle = (part.from + part.to) / 2;
+      parts_.push_back({part.from, middle});
+      parts_.push_back({middle, part.to});
+    }
+    return true;
+  }
+
+  std::span<const Vec3> other_;
+  double accuracy_;
+  double farthest_ = 0;
+  std::size_t lines_ = 0;
+  std::vector<ChainPart> parts_;
+};
+
+}  // namespace
+
+std::optional<double> distance_of(std::span<const Vec3> a, std::span<const Vec3> b, double accuracy) {
+  if (a.empty() || b.empty()) return std::nullopt;
+  FarthestPoint from_a(b, accuracy);
+  FarthestPoint from_b(a, accuracy);
+  if (!from_a.look_at(a) || !from_b.look_at(b)) return std::nullopt;
+  return std::max(from_a.farthest(), from_b.farthest());
+}
+
+}  // namespace isocnc::comparison

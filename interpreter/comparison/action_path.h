@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "interpreter/comparison/machine_action.h"
+#include "interpreter/geometry/helix.h"
+
+namespace isocnc::comparison {
+
+/// The path of the tip in one motion, as a function of the part that is traveled, 0 to 1.
+class ActionPath {
+ public:
+  ActionPath(const RecordedRun& run, const MachineAction& motion);
+
+  bool is_straight() const { return !is_arc_ && !motion_.is_by_joints; }
+  geometry::Pose at(double part) const;
+  /// The nearest place to a point of the path from `from_part` on; for rapids by joints none. `from_part` decides
+  /// between the places of a full circle, too.
+  std::optional<double> nearest(const geometry::Vec3& point, double from_part) const;
+  double length() const;
+
+ private:
+  const RecordedRun& run_;
+  const MachineAction& motion_;
+  bool is_arc_;
+  geometry::Helix helix_;
+};
+
+/// The path of several motions as a chain of points, from the start of the first motion. Arcs are chords that are at
+/// most `deviation` mm from them.
+std::vector<geometry::Vec3> chain_of(const RecordedRun& run, std::span<const MachineAction> actions, double deviation);
+
+/// Hausdorff distance of two chains of points, mm: how far a point of one is at most from the other. The result is at
+/// most `accuracy` below. None where it would take too long.
+std::optional<double> distance_of(std::span<const geometry::Vec3> a, std::span<const geometry::Vec3> b,
+                                  double accuracy);
+
+}  // namespace isocnc::comparison

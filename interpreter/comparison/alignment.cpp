@@ -1,0 +1,325 @@
+#include "interpreter/comparison/alignment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "interpreter/comparison/action_path.h"
+#include "interpreter/comparison/anchors.h"
+
+namespace isocnc::comparison {
+
+using geometry::Pose;
+using geometry::Vec3;
+
+/// Maximum number of motions that take the path of one motion.
+static constexpr std::size_t kMaxParts = 10'000;
+/// Points of a curve that are compared.
+static constexpr int kSamples = 8;
+
+static bool turns_together(const Pose& a, const Pose& b, double tolerance) {
+  return std::abs(a.b - b.b) <= tolerance && std::abs(a.c - b.c) <= tolerance;
+}
+
+static bool is_near(const Pose& a, const Pose& b, const Vec3& shift, double tolerance) {
+  return (b.tip - a.tip - shift).squaredNorm() <= tolerance * tolerance && turns_together(a, b, tolerance);
+}
+
+bool ends_together(const RunPair& runs, const MachineAction& a, const MachineAction& b, const Vec3& shift) {
+  return is_near(a.to, b.to, shift, runs.tolerance);
+}
+
+bool is_same_effect(const RunPair& runs, const MachineAction& a, const MachineAction& b) {
+  if (a.kind != b.kind) return false;
+  constexpr double kSameValue = 1e-6;
+  switch (a.kind) {
+    case ActionKind::Tool:
+      return runs.a.tools[a.tool].code == runs.b.tools[b.tool].code;
+    case ActionKind::Function: {
+      const running::FunctionEvent& left = runs.a.functions[a.number];
+      const running::FunctionEvent& right = runs.b.functions[b.number];
+      return left.number == right.number &&
+             std::equal(left.parameters.begin(), left.parameters.end(), right.parameters.begin(),
+                        right.parameters.end(), [](const auto& one, const auto& other) {
+                          return one.number == other.number && std::abs(one.value - other.value) <= kSameValue;
+                        });
+    }
+    default:
+      return a.number == b.number && std::abs(a.value - b.value) <= kSameValue;
+  }
+}
+
+namespace {
+
+/// A motion that is followed, up to a part of it.
+struct Followed {
+  std::size_t index = 0;
+  double part = 0;
+};
+
+/// Whether the rest of a motion, up to `until`, stays beside another one, and goes forward there. `shift` leads from
+/// the first to the second. Returns how far the second one has been followed.
+std::optional<double> beside(const ActionPath& path, double from, double until, const ActionPath& other,
+                             double other_part, const Vec3& shift, double tolerance) {
+  const int samples = path.is_straight() && other.is_straight() ? 1 : kSamples;
+  for (int i = 1; i <= samples; ++i) {
+    Pose pose = path.at(from + (until - from) * i / samples);
+    pose.tip += shift;
+    const std::optional<double> part = other.nearest(pose.tip, other_part);
+    if (!part) return std::nullopt;
+    const Pose there = other.at(*part);
+    if ((there.tip - pose.tip).squaredNorm() > tolerance * tolerance || !turns_together(there, pose, tolerance))
+      return std::nullopt;
+    other_part = *part;
+  }
+  return other_part;
+}
+
+}  // namespace
+
+/// Whether two arcs have the same circle and go around it in the same way. Their ends are compared elsewhere.
+static bool is_same_arc(const RunPair& runs, const MachineAction& a, const MachineAction& b, const Vec3& shift) {
+  if (a.arc == MachineAction::kNone || b.arc == MachineAction::kNone) return false;
+  constexpr double kSameNormal = 1e-9;
+  const ActionArc& left = runs.a.arcs[a.arc];
+  const ActionArc& right = runs.b.arcs[b.arc];
+  const double radius = (a.from.tip - left.center).norm();
+  const double turn = std::abs(left.sweep_deg - right.sweep_deg) / 180 * std::numbers::pi;
+  return (left.normal - right.normal).squaredNorm() <= kSameNormal && turn * radius <= runs.tolerance &&
+         (right.center - left.center - shift).squaredNorm() <= runs.tolerance * runs.tolerance / 4;
+}
+
+/// Whether a motion goes where the rest of the other one does, to the end of both.
+static bool is_same_rest(const RunPair& runs, const Followed& a, const Followed& b, const Vec3& shift) {
+  const MachineAction& left = runs.a.actions[a.index];
+  const MachineAction& right = runs.b.actions[b.index];
+  if (left.is_line() && right.is_line()) return true;
+  if (left.is_by_joints || right.is_by_joints) return left.is_by_joints && right.is_by_joints;
+  if (a.part == 0 && b.part == 0 && is_same_arc(runs, left, right, shift)) return true;
+  const ActionPath a_path(runs.a, left);
+  const ActionPath b_path(runs.b, right);
+  return beside(a_path, a.part, 1, b_path, b.part, shift, runs.tolerance) &&
+         beside(b_path, b.part, 1, a_path, a.part, -shift, runs.tolerance);
+}
+
+std::optional<PlaceInBoth> same_step(const RunPair& runs, const PlaceInBoth& place, const Vec3& shift,
+                                     const OverlapListener& overlap) {
+  Followed a{place.a};
+  Followed b{place.b};
+  for (std::size_t parts = 0; parts < kMaxParts; ++parts) {
+    if (a.index >= runs.a.actions.size() || b.index >= runs.b.actions.size()) return std::nullopt;
+    const MachineAction& left = runs.a.actions[a.index];
+    const MachineAction& right = runs.b.actions[b.index];
+    if (!left.is_motion() || !right.is_motion()) {
+      const bool is_same = parts == 0 && is_same_effect(runs, left, right);
+      return is_same ? std::optional(PlaceInBoth{a.index + 1, b.index + 1}) : std::nullopt;
+    }
+    if (parts == 0 && !is_near(left.from, right.from, shift, runs.tolerance)) return std::nullopt;
+    if (overlap) overlap(a.index, b.index);
+    if (ends_together(runs, left, right, shift)) {
+      if (!is_same_rest(runs, a, b, shift)) return std::nullopt;
+      return PlaceInBoth{a.index + 1, b.index + 1};
+    }
+    if (left.is_by_joints || right.is_by_joints) return std::nullopt;
+    // One of them ends beside the other.
+    const ActionPath a_path(runs.a, left);
+    const ActionPath b_path(runs.b, right);
+    if (const auto part = beside(a_path, a.part, 1, b_path, b.part, shift, runs.tolerance)) {
+      a = {a.index + 1};
+      b.part = *part;
+    } else if (const auto a_part = beside(b_path, b.part, 1, a_path, a.part, -shift, runs.tolerance)) {
+      b = {b.index + 1};
+      a.part = *a_part;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+/// Finds the pieces from the start of two runs to their ends.
+class Aligner {
+ public:
+  explicit Aligner(const RunPair& runs) : runs_(runs) {}
+
+  std::vector<AlignedPiece> pieces() {
+    while (place_.a < runs_.a.actions.size() || place_.b < runs_.b.actions.size()) {
+      if (const auto next = same_step(runs_, place_, shift_)) {
+        go_on(*next, AlignedPiece::Kind::Same);
+        continue;
+      }
+      if (!find_again()) go_on({runs_.a.actions.size(), runs_.b.actions.size()}, AlignedPiece::Kind::Gap);
+    }
+    return std::move(pieces_);
+  }
+
+ private:
+  /// Number of actions among which a difference is looked for in all ways.
+  static constexpr std::size_t kWindow = 40;
+  /// Number of steps that have to be the same after a place for it to count.
+  static constexpr int kConfirmations = 3;
+  /// Maximum number of pairs of actions that are tried in windows in all: then anchors alone are asked.
+  static constexpr std::size_t kMaxPairs = 200'000'000;
+  /// Maximum number of anchors tried in a row.
+  static constexpr int kMaxAnchors = 64;
+
+  /// A place from which both do the same again, after one action each that ends in the same place or, with a new
+  /// shift, in another one.
+  struct Again {
+    PlaceInBoth place;
+    Vec3 shift = Vec3::Zero();
+  };
+
+  void go_on(const PlaceInBoth& next, AlignedPiece::Kind kind) {
+    const bool goes_on = !pieces_.empty() && pieces_.back().kind == kind && kind == AlignedPiece::Kind::Same;
+    if (!goes_on) pieces_.push_back({.kind = kind, .a_begin = place_.a, .b_begin = place_.b, .shift = shift_});
+    pieces_.back().a_end = next.a;
+    pieces_.back().b_end = next.b;
+    place_ = next;
+  }
+
+  bool find_again() {
+    std::optional<Again> again = in_window(false);
+    const bool is_large = !again || std::max(again->place.a - place_.a, again->place.b - place_.b) > 1;
+    if (is_large) {
+      const std::optional<Again> shifted = in_window(true);
+      if (shifted && (!again || same_steps(*shifted) > same_steps(*again))) again = shifted;
+    }
+    if (!again) again = at_anchor();
+    if (!again) return false;
+    if (again->place.a > place_.a || again->place.b > place_.b) go_on(again->place, AlignedPiece::Kind::Gap);
+    shift_ = again->shift;
+    const bool is_closing = runs_.a.actions[place_.a].is_motion();
+    go_on({place_.a + 1, place_.b + 1}, is_closing ? AlignedPiece::Kind::Closing : AlignedPiece::Kind::Same);
+    return true;
+  }
+
+  /// How many steps are the same after a place, up to a maximum: of two places where the runs may meet again, that with
+  /// more of them explains more.
+  std::size_t same_steps(const Again& again) const {
+    constexpr std::size_t kMaxSteps = 500;
+    std::size_t steps = 0;
+    PlaceInBoth place{again.place.a + 1, again.place.b + 1};
+    while (steps < kMaxSteps) {
+      const auto next = same_step(runs_, place, again.shift);
+      if (!next) break;
+      place = *next;
+      ++steps;
+    }
+    return steps;
+  }
+
+  /// The shift between the ends of two motions, if both turn to the same B and C. The present shift and none are kept
+  /// where the tolerance allows it.
+  std::optional<Vec3> shift_between(const MachineAction& a, const MachineAction& b) const {
+    if (!turns_together(a.to, b.to, runs_.tolerance)) return std::nullopt;
+    const Vec3 shift = b.to.tip - a.to.tip;
+    const double square = runs_.tolerance * runs_.tolerance;
+    if ((shift - shift_).squaredNorm() <= square) return shift_;
+    if (shift.squaredNorm() <= square) return Vec3(Vec3::Zero());
+    return shift;
+  }
+
+  bool is_new(const Vec3& shift) const { return shift != shift_ && !shift.isZero(0); }
+
+  /// Whether both do the same from a place on. A motion has to be among it, if there is one soon, since what is no motion
+  /// is the same wherever the machine stands; for a new shift in any case.
+  bool is_confirmed(PlaceInBoth place, const Vec3& shift) const {
+    constexpr int kMaxWithoutMotion = 12;
+    bool has_motion = false;
+    for (int i = 0; i < kConfirmations || (!has_motion && i < kMaxWithoutMotion); ++i) {
+      if (place.a == runs_.a.actions.size() && place.b == runs_.b.actions.size()) break;
+      const auto next = same_step(runs_, place, shift);
+      if (!next) return false;
+      has_motion = has_motion || runs_.a.actions[place.a].is_motion();
+      place = *next;
+    }
+    return has_motion || !is_new(shift);
+  }
+
+  std::optional<Again> again_at(const PlaceInBoth& place, bool with_new_shift) const {
+    const MachineAction& a = runs_.a.actions[place.a];
+    const MachineAction& b = runs_.b.actions[place.b];
+    if (a.kind != b.kind) return std::nullopt;
+    Vec3 shift = shift_;
+    if (a.is_motion()) {
+      const std::optional<Vec3> between = shift_between(a, b);
+      if (!between || is_new(*between) != with_new_shift) return std::nullopt;
+      shift = *between;
+    } else if (with_new_shift || !is_same_effect(runs_, a, b)) {
+      return std::nullopt;
+    }
+    if (!is_confirmed({place.a + 1, place.b + 1}, shift)) return std::nullopt;
+    return Again{place, shift};
+  }
+
+  std::optional<Again> in_window(bool with_new_shift) {
+    if (pairs_ > kMaxPairs) return std::nullopt;
+    const std::size_t a_left = runs_.a.actions.size() - place_.a;
+    const std::size_t b_left = runs_.b.actions.size() - place_.b;
+    for (std::size_t larger = 0; larger < kWindow; ++larger)
+      for (std::size_t smaller = 0; smaller <= larger; ++smaller) {
+        pairs_ += 2;
+        if (larger < a_left && smaller < b_left)
+          if (const auto again = again_at({place_.a + larger, place_.b + smaller}, with_new_shift)) return again;
+        if (smaller < a_left && larger < b_left && smaller != larger)
+          if (const auto again = again_at({place_.a + smaller, place_.b + larger}, with_new_shift)) return again;
+      }
+    return std::nullopt;
+  }
+
+  /// At the nearest anchor; from there backward as far as both do the same.
+  std::optional<Again> at_anchor() {
+    if (!anchors_) anchors_.emplace(runs_);
+    std::optional<Again> best;
+    std::size_t best_size = 0;
+    for (const bool is_by_place : {true, false}) {
+      PlaceInBoth after = place_;
+      for (int i = 0; i < kMaxAnchors; ++i) {
+        const std::optional<PlaceInBoth> anchor = anchors_->next(after, is_by_place);
+        if (!anchor) break;
+        after = {anchor->a + 1, anchor->b + 1};
+        std::optional<Again> again = again_at(*anchor, false);
+        if (!again && !is_by_place) again = again_at(*anchor, true);
+        if (!again) continue;
+        const Again extended = backward(*again);
+        const std::size_t size = std::max(extended.place.a - place_.a, extended.place.b - place_.b);
+        if (!best || size < best_size) {
+          best = extended;
+          best_size = size;
+        }
+        break;
+      }
+    }
+    return best;
+  }
+
+  Again backward(Again again) const {
+    while (again.place.a > place_.a && again.place.b > place_.b) {
+      const PlaceInBoth before{again.place.a - 1, again.place.b - 1};
+      const MachineAction& a = runs_.a.actions[before.a];
+      const MachineAction& b = runs_.b.actions[before.b];
+      if (a.kind != b.kind) break;
+      if (a.is_motion() ? !ends_together(runs_, a, b, again.shift) : !is_same_effect(runs_, a, b)) break;
+      // The step from there has to be the same; the anchor's own one counts as confirmed by its end.
+      if (!same_step(runs_, again.place, again.shift)) break;
+      again.place = before;
+    }
+    return again;
+  }
+
+  const RunPair& runs_;
+  PlaceInBoth place_;
+  Vec3 shift_ = Vec3::Zero();
+  std::vector<AlignedPiece> pieces_;
+  std::size_t pairs_ = 0;
+  std::optional<Anchors> anchors_;
+};
+
+}  // namespace
+
+std::vector<AlignedPiece> align(const RunPair& runs) { return Aligner(runs).pieces(); }
+
+}  // namespace isocnc::comparison

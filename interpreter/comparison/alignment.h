@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "interpreter/comparison/machine_action.h"
+
+namespace isocnc::comparison {
+
+/// A part of two runs, as ranges of their actions; the ends are exclusive.
+struct AlignedPiece {
+  enum class Kind : std::uint8_t {
+    Same,     ///< Both do the same, but for feeds and for a shift.
+    Closing,  ///< One motion of each, which lead to the same place but not the same way.
+    Gap,      ///< Nothing in it fits together; one range may be empty.
+  };
+
+  Kind kind = Kind::Same;
+  std::size_t a_begin = 0;
+  std::size_t a_end = 0;
+  std::size_t b_begin = 0;
+  std::size_t b_end = 0;
+  geometry::Vec3 shift = geometry::Vec3::Zero();  ///< From a's place to b's at its end; mm. Exactly 0 for no shift.
+};
+
+/// Two runs, of which one follows the other.
+struct RunPair {
+  const RecordedRun& a;
+  const RecordedRun& b;
+  double tolerance = 0;  ///< mm, and degrees for B and C.
+};
+
+/// Called for two motions that go along each other.
+using OverlapListener = std::function<void(std::size_t a, std::size_t b)>;
+
+/// Where two runs stand after they have done the same once more: after one action each, or after motions that take the
+/// same path in different parts, as an arc and its chords. `shift` leads from a's places to those of b. None if they
+/// differ.
+struct PlaceInBoth {
+  std::size_t a = 0;
+  std::size_t b = 0;
+};
+std::optional<PlaceInBoth> same_step(const RunPair& runs, const PlaceInBoth& place, const geometry::Vec3& shift,
+                                     const OverlapListener& overlap = nullptr);
+
+/// Whether both do the same, wherever they stand; not for motions.
+bool is_same_effect(const RunPair& runs, const MachineAction& a, const MachineAction& b);
+
+/// Whether two motions end in the same place.
+bool ends_together(const RunPair& runs, const MachineAction& a, const MachineAction& b, const geometry::Vec3& shift);
+
+/// Aligns two runs, from their starts to their ends. Takes time in proportion to the actions and, for each difference,
+/// to the square of its size, up to a limit (docs/isodiff.md).
+std::vector<AlignedPiece> align(const RunPair& runs);
+
+}  // namespace isocnc::comparison

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/comparison/machine_action.h"
+
+namespace isocnc::comparison {
+
+/// What changes, in the order of their names in JSON.
+enum class ChangeKind : std::uint8_t {
+  Moved,      ///< The same motions, elsewhere.
+  Shape,      ///< Another path between the same places.
+  Added,      ///< Motions that only the new program has.
+  Removed,    ///< Motions that only the old program has.
+  Reordered,  ///< The same in another order.
+  Feed,       ///< Another feed, or a rapid instead of a feed move.
+  Speed,      ///< The spindle turns otherwise.
+  Tool,       ///< Another tool, or a tool change more or less.
+  Function,   ///< An M of the user, a signal such as G990, or an exact stop.
+  Frame,      ///< All is moved because the frame is elsewhere.
+  Dwell,      ///< Another time at rest.
+  Path,       ///< An IF is taken by one program only.
+  End,        ///< The run ends otherwise.
+};
+
+/// The first and the last line of a change, from 0.
+struct ChangedLines {
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  friend bool operator==(const ChangedLines&, const ChangedLines&) = default;
+};
+
+/// A difference between the behavior of two programs, without its text.
+struct BehaviorChange {
+  ChangeKind kind = ChangeKind::Moved;
+  std::optional<ChangedLines> old_lines;
+  std::optional<ChangedLines> new_lines;
+  std::optional<execution::ToolCode> old_tool;  ///< The mounted one, if the old program has a part in the change.
+  std::optional<execution::ToolCode> new_tool;
+  /// Moved and Shape: how far a point of one path is at most from the other path, mm, or the length of `shift`. None
+  /// where only B and C differ, or where that was not computed.
+  std::optional<double> distance;
+  double turned = 0;                    ///< Moved: by how much B or C end elsewhere at most, degrees.
+  std::optional<geometry::Vec3> shift;  ///< From old to new, mm, if all is moved by the same.
+  std::string old_value;                ///< As programs write it: `F4000`, `S12000 M03`; empty for nothing.
+  std::string new_value;
+  std::size_t old_motions = 0;
+  std::size_t new_motions = 0;
+  /// Path: the line of the IF in the program that takes it; Frame: that of its G in each program. From 0.
+  std::optional<std::size_t> old_cause;
+  std::optional<std::size_t> new_cause;
+
+  std::optional<execution::ToolCode> tool() const { return new_tool ? new_tool : old_tool; }
+  friend bool operator==(const BehaviorChange&, const BehaviorChange&) = default;
+};
+
+struct ComparisonOptions {
+  double tolerance = 0.001;  ///< Places this near are the same; mm, and degrees for B and C. Positive.
+  bool ignores_feed = false;
+  bool ignores_speed = false;
+  bool ignores_time = false;  ///< Dwells and exact stops.
+};
+
+/// Compares what the machine does in two runs. Swapping the runs gives the same changes, mirrored.
+std::vector<BehaviorChange> compare(const RecordedRun& old_run, const RecordedRun& new_run,
+                                    const ComparisonOptions& options);
+
+}  // namespace isocnc::comparison

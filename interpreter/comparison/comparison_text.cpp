@@ -1,0 +1,278 @@
+#include "interpreter/comparison/comparison_text.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "interpreter/dialect/format.h"
+
+namespace isocnc::comparison {
+
+using dialect::Language;
+using dialect::Text;
+using OrderedJson = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::string_view kKindNames[] = {"moved", "shape",    "added", "removed", "reordered", "feed", "speed",
+                                           "tool",  "function", "frame", "dwell",   "path",      "end"};
+
+constexpr Text kMoved{"moved", "spostato"};
+constexpr Text kMovedBy{"moved by {}", "spostato di {}"};
+constexpr Text kMovedUpTo{"moved by up to {} mm", "spostato fino a {} mm"};
+constexpr Text kTurned{"B or C turned by up to {} degrees", "B o C girati fino a {} gradi"};
+constexpr Text kShape{"another path, up to {} mm away", "un altro percorso, fino a {} mm di distanza"};
+constexpr Text kOtherTurn{"the same path with B or C turned otherwise",
+                          "lo stesso percorso con B o C girati diversamente"};
+constexpr Text kOtherCount{"another path, {} instead of {}, up to {} mm away",
+                           "un altro percorso, {} invece di {}, fino a {} mm di distanza"};
+constexpr Text kOtherWhole{"another path, {} instead of {}", "un altro percorso, {} invece di {}"};
+constexpr Text kMotion{"1 motion", "1 movimento"};
+constexpr Text kMotions{"{} motions", "{} movimenti"};
+constexpr Text kAdded{"added: {}", "aggiunto: {}"};
+constexpr Text kRemoved{"removed: {}", "tolto: {}"};
+constexpr Text kReordered{"order changed", "ordine cambiato"};
+constexpr Text kInstead{"{} instead of {}", "{} invece di {}"};
+constexpr Text kFrame{"moved by {}: the frame is elsewhere", "spostato di {}: il sistema di riferimento è altrove"};
+constexpr Text kFrameOf{"moved by {}: the frame of line {} is elsewhere",
+                        "spostato di {}: il sistema di riferimento della riga {} è altrove"};
+constexpr Text kDwell{"dwell of {} instead of {}", "attesa di {} invece di {}"};
+constexpr Text kDwellAdded{"dwell of {} added", "aggiunta un'attesa di {}"};
+constexpr Text kDwellRemoved{"dwell of {} removed", "tolta un'attesa di {}"};
+constexpr Text kPath{"another path: the IF of line {} jumps in the {} program only ({} instead of {})",
+                     "un'altra via: l'IF della riga {} salta solo nel programma {} ({} invece di {})"};
+constexpr Text kNew{"new", "nuovo"};
+constexpr Text kOld{"old", "vecchio"};
+constexpr Text kEnds{"ends with {} instead of {}", "finisce con {} invece di {}"};
+
+constexpr Text kEndsElsewhere{"ends with {} instead of {}: from here on {} instead of {}",
+                              "finisce con {} invece di {}: da qui in poi {} invece di {}"};
+
+constexpr Text kNoDifference{"no difference\n", "nessuna differenza\n"};
+constexpr Text kBothStop{"both stop at an error: {} on {}, {} on {}\n",
+                         "tutti e due si fermano a un errore: {} alla {}, {} alla {}\n"};
+constexpr Text kNoTool{"without a tool\n", "senza utensile\n"};
+constexpr Text kLine{"line {}", "riga {}"};
+constexpr Text kLines{"lines {}-{}", "righe {}-{}"};
+constexpr Text kOldSide{"old {}", "prima {}"};
+constexpr Text kNewSide{"new {}", "ora {}"};
+constexpr Text kCycleTime{"cycle time: {}, was {} ({:+.1f} s)\n", "tempo ciclo: {}, era {} ({:+.1f} s)\n"};
+constexpr Text kFeedLength{"feed moves: {} mm, were {} mm\n", "lavoro: {} mm, era {} mm\n"};
+constexpr Text kRapidLength{"rapids: {} mm, were {} mm\n", "rapidi: {} mm, erano {} mm\n"};
+constexpr Text kExtent{"extent in {}: {} to {}, was {} to {} (machine)\n",
+                       "ingombro in {}: da {} a {}, era da {} a {} (macchina)\n"};
+constexpr Text kOneDifference{"1 difference\n", "1 differenza\n"};
+constexpr Text kDifferences{"{} differences\n", "{} differenze\n"};
+
+/// A number without zeros at its end.
+std::string trimmed(double number) {
+  std::string text = fmt::format("{:.3f}", number);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::string shown_seconds(double seconds) {
+  const double tenths = std::round(seconds * 10);
+  const double minutes = std::floor(tenths / 600);
+  if (minutes > 0) return fmt::format("{:.0f} min {:04.1f} s", minutes, (tenths - minutes * 600) / 10);
+  return fmt::format("{:.1f} s", tenths / 10);
+}
+
+/// The vector as programs write it: `X10 Z-0.5`; what rounds to 0 is left out.
+std::string shown_shift(const geometry::Vec3& shift) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string number = trimmed(shift[axis]);
+    if (number == "0") continue;
+    text += fmt::format("{}{}{}", text.empty() ? "" : " ", "XYZ"[axis], number);
+  }
+  return text.empty() ? fmt::format("{:.2g} mm", shift.norm()) : text;
+}
+
+std::string shown_count(std::size_t count, Language language) {
+  return count == 1 ? std::string(kMotion.in(language)) : dialect::format(kMotions, language, count);
+}
+
+/// A distance below the last decimal shown has more.
+std::string shown_distance(double mm) { return mm < 0.01 ? fmt::format("{:.2g}", mm) : trimmed(mm); }
+
+std::string shown_lines(const ChangedLines& lines, Language language) {
+  return lines.first == lines.last ? dialect::format(kLine, language, lines.first + 1)
+                                   : dialect::format(kLines, language, lines.first + 1, lines.last + 1);
+}
+
+std::string shown_place(const BehaviorChange& change, Language language) {
+  if (change.old_lines == change.new_lines && change.old_lines) return shown_lines(*change.old_lines, language);
+  std::string place;
+  if (change.old_lines) place = dialect::format(kOldSide, language, shown_lines(*change.old_lines, language));
+  if (!change.new_lines) return place;
+  return (place.empty() ? "" : place + ", ") +
+         dialect::format(kNewSide, language, shown_lines(*change.new_lines, language));
+}
+
+std::string moved_in_words(const BehaviorChange& change, Language language) {
+  std::string text;
+  if (change.shift) {
+    text = dialect::format(kMovedBy, language, shown_shift(*change.shift));
+  } else if (change.distance) {
+    text = dialect::format(kMovedUpTo, language, shown_distance(*change.distance));
+  }
+  if (change.turned == 0) return text.empty() ? std::string(kMoved.in(language)) : text;
+  return text + (text.empty() ? "" : ", ") + dialect::format(kTurned, language, trimmed(change.turned));
+}
+
+std::string shape_in_words(const BehaviorChange& change, Language language) {
+  const std::size_t old_count = change.old_motions;
+  const std::string new_count = shown_count(change.new_motions, language);
+  const bool is_one = change.old_motions == 1 && change.new_motions == 1;
+  if (!change.distance)
+    return is_one ? std::string(kOtherTurn.in(language)) : dialect::format(kOtherWhole, language, new_count, old_count);
+  const std::string distance = shown_distance(*change.distance);
+  return is_one ? dialect::format(kShape, language, distance)
+                : dialect::format(kOtherCount, language, new_count, old_count, distance);
+}
+
+std::string end_in_words(const BehaviorChange& change, Language language) {
+  if (change.old_motions == change.new_motions)
+    return dialect::format(kEnds, language, change.new_value, change.old_value);
+  return dialect::format(kEndsElsewhere, language, change.new_value, change.old_value,
+                         shown_count(change.new_motions, language), change.old_motions);
+}
+
+std::string exchange_in_words(const BehaviorChange& change, Language language) {
+  if (change.old_value.empty()) return dialect::format(kAdded, language, change.new_value);
+  if (change.new_value.empty()) return dialect::format(kRemoved, language, change.old_value);
+  if (change.kind == ChangeKind::End) return end_in_words(change, language);
+  return dialect::format(kInstead, language, change.new_value, change.old_value);
+}
+
+std::string dwell_in_words(const BehaviorChange& change, Language language) {
+  if (change.old_value.empty()) return dialect::format(kDwellAdded, language, change.new_value);
+  if (change.new_value.empty()) return dialect::format(kDwellRemoved, language, change.old_value);
+  return dialect::format(kDwell, language, change.new_value, change.old_value);
+}
+
+std::string path_in_words(const BehaviorChange& change, Language language) {
+  const std::size_t line = change.new_cause.value_or(change.old_cause.value_or(0)) + 1;
+  return dialect::format(kPath, language, line, (change.new_cause ? kNew : kOld).in(language),
+                         shown_count(change.new_motions, language), change.old_motions);
+}
+
+std::string frame_in_words(const BehaviorChange& change, Language language) {
+  const std::string shift = shown_shift(*change.shift);
+  return change.new_cause ? dialect::format(kFrameOf, language, shift, *change.new_cause + 1)
+                          : dialect::format(kFrame, language, shift);
+}
+
+std::string totals_in_words(const ComparedRuns& runs, Language language) {
+  constexpr double kShownSeconds = 0.05;
+  constexpr double kShownMm = 0.0005;
+  const RecordedRun& old_run = runs.old_run;
+  const RecordedRun& new_run = runs.new_run;
+  std::string text;
+  if (std::abs(new_run.seconds - old_run.seconds) >= kShownSeconds)
+    text += dialect::format(kCycleTime, language, shown_seconds(new_run.seconds), shown_seconds(old_run.seconds),
+                            new_run.seconds - old_run.seconds);
+  if (std::abs(new_run.feed_mm - old_run.feed_mm) >= kShownMm)
+    text += dialect::format(kFeedLength, language, trimmed(new_run.feed_mm), trimmed(old_run.feed_mm));
+  if (std::abs(new_run.rapid_mm - old_run.rapid_mm) >= kShownMm)
+    text += dialect::format(kRapidLength, language, trimmed(new_run.rapid_mm), trimmed(old_run.rapid_mm));
+  if (!old_run.has_motion || !new_run.has_motion) return text;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const geometry::Range& before = old_run.extents[axis];
+    const geometry::Range& now = new_run.extents[axis];
+    if (std::abs(before.minimum - now.minimum) < kShownMm && std::abs(before.maximum - now.maximum) < kShownMm)
+      continue;
+    text += dialect::format(kExtent, language, "XYZ"[axis], trimmed(now.minimum), trimmed(now.maximum),
+                            trimmed(before.minimum), trimmed(before.maximum));
+  }
+  return text;
+}
+
+/// A comparison ends where both programs stop: what is not run is not compared.
+std::string stop_in_words(const ComparedRuns& runs, Language language) {
+  const std::string_view old_error = error_of(runs.old_run);
+  const std::string_view new_error = error_of(runs.new_run);
+  if (old_error.empty() || new_error.empty()) return "";
+  const auto line = [&](const RecordedRun& run) {
+    const std::size_t last = run.actions.back().line;
+    return shown_lines({last, last}, language);
+  };
+  return dialect::format(kBothStop, language, old_error, line(runs.old_run), new_error, line(runs.new_run));
+}
+
+OrderedJson lines_json(const std::optional<ChangedLines>& lines) {
+  return lines ? OrderedJson{lines->first + 1, lines->last + 1} : OrderedJson(nullptr);
+}
+
+}  // namespace
+
+std::string_view name_of(ChangeKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
+
+std::string in_words(const BehaviorChange& change, Language language) {
+  switch (change.kind) {
+    case ChangeKind::Moved:
+      return moved_in_words(change, language);
+    case ChangeKind::Shape:
+      return shape_in_words(change, language);
+    case ChangeKind::Added:
+      return dialect::format(kAdded, language, shown_count(change.new_motions, language));
+    case ChangeKind::Removed:
+      return dialect::format(kRemoved, language, shown_count(change.old_motions, language));
+    case ChangeKind::Reordered:
+      return std::string(kReordered.in(language));
+    case ChangeKind::Frame:
+      return frame_in_words(change, language);
+    case ChangeKind::Dwell:
+      return dwell_in_words(change, language);
+    case ChangeKind::Path:
+      return path_in_words(change, language);
+    case ChangeKind::Feed:
+    case ChangeKind::Speed:
+    case ChangeKind::Tool:
+    case ChangeKind::Function:
+    case ChangeKind::End:
+      return exchange_in_words(change, language);
+  }
+  return "";
+}
+
+std::string text_of(const ComparedRuns& runs, Language language) {
+  if (runs.changes.empty()) return std::string(kNoDifference.in(language)) + stop_in_words(runs, language);
+  std::string text;
+  std::optional<std::optional<execution::ToolCode>> group;
+  for (const BehaviorChange& change : runs.changes) {
+    const std::optional<execution::ToolCode> tool = change.tool();
+    if (!group || *group != tool) text += tool ? running::tool_name(*tool) + '\n' : std::string(kNoTool.in(language));
+    group = tool;
+    text += fmt::format("  {}: {}\n", shown_place(change, language), in_words(change, language));
+  }
+  text += totals_in_words(runs, language) + stop_in_words(runs, language);
+  const std::size_t count = runs.changes.size();
+  return text +
+         (count == 1 ? std::string(kOneDifference.in(language)) : dialect::format(kDifferences, language, count));
+}
+
+std::string json_of(const ComparedRuns& runs, Language language) {
+  OrderedJson json;
+  json["same"] = runs.changes.empty();
+  json["old"] = {{"time", runs.old_run.seconds}};
+  json["new"] = {{"time", runs.new_run.seconds}};
+  json["changes"] = OrderedJson::array();
+  for (const BehaviorChange& change : runs.changes) {
+    OrderedJson each;
+    each["kind"] = name_of(change.kind);
+    each["old"] = lines_json(change.old_lines);
+    each["new"] = lines_json(change.new_lines);
+    const std::optional<execution::ToolCode> tool = change.tool();
+    each["tool"] = tool ? OrderedJson(running::tool_name(*tool)) : OrderedJson(nullptr);
+    each["distance"] = change.distance ? OrderedJson(*change.distance) : OrderedJson(nullptr);
+    each["text"] = in_words(change, language);
+    json["changes"].push_back(std::move(each));
+  }
+  return json.dump() + '\n';
+}
+
+}  // namespace isocnc::comparison

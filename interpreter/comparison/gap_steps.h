@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "interpreter/comparison/alignment.h"
+
+namespace isocnc::comparison {
+
+/// What becomes of the next actions of a gap: the two are the same, or one takes the place of the other, or the first
+/// or the second program alone has it.
+enum class GapStep : std::uint8_t { Same, Replaced, OnlyInA, OnlyInB };
+
+/// The steps through a gap that change the least. `shift` is the one before the gap, `gap.shift` the one after it. None
+/// for a gap that is too large.
+std::optional<std::vector<GapStep>> gap_steps(const RunPair& runs, const AlignedPiece& gap,
+                                              const geometry::Vec3& shift);
+
+}  // namespace isocnc::comparison

@@ -1,0 +1,144 @@
+#include "interpreter/comparison/machine_action.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/kinematics/travel.h"
+#include "interpreter/simulation/spindle_turn.h"
+#include "interpreter/simulation/timed_run.h"
+
+namespace isocnc::comparison {
+
+/// A motion shorter than this, in mm and degrees, goes nowhere.
+static constexpr double kNoMotion = 1e-9;
+
+namespace {
+
+/// Turns the events of a run into actions.
+class ActionRecorder {
+ public:
+  explicit ActionRecorder(const simulation::TimedMachine& machine) : machine_(machine) {
+    run_.kinematics = machine.motion.kinematics;
+    run_.frames.emplace_back();
+  }
+
+  void take(const simulation::TimedEvent& timed) {
+    line_ = timed.event.line;
+    std::visit([&](const auto& what) { add(what, timed); }, timed.event.what);
+    const simulation::Timing::SpindleMotion turned = simulation::spindle_after(timed.event, spindle_, spindle_speed_);
+    if (turned == spindle_) return;
+    spindle_ = turned;
+    // A tool change stops the spindle by itself.
+    if (std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
+    MachineAction& action = append(ActionKind::Spindle);
+    action.number = static_cast<std::uint32_t>(turned.function);
+    action.value = turned.speed;
+  }
+
+  RecordedRun finish(const running::RunResult& result, double seconds) {
+    line_ = result.line;
+    MachineAction& end = append(ActionKind::End);
+    const bool is_error = result.ending == running::Ending::Error;
+    end.number = is_error ? 1 + static_cast<std::uint32_t>(result.error.id) : 0;
+    run_.seconds = seconds;
+    return std::move(run_);
+  }
+
+ private:
+  MachineAction& append(ActionKind kind) {
+    MachineAction& action = run_.actions.emplace_back();
+    action.kind = kind;
+    action.line = static_cast<std::uint32_t>(line_);
+    action.tool = tool_;
+    action.frame = static_cast<std::uint32_t>(run_.frames.size() - 1);
+    return action;
+  }
+
+  void add(const running::MoveEvent& event, const simulation::TimedEvent& timed) {
+    const kinematics::Move& move = *timed.move;
+    const double turn = std::hypot(move.to.b - move.from.b, move.to.c - move.from.c);
+    const bool goes = move.is_arc ? move.sweep_deg != 0 : turn + (move.to.tip - move.from.tip).norm() > kNoMotion;
+    if (goes) {
+      add_motion(event, move, turn);
+      if (event.kind == execution::MoveKind::Rapid) add_travel(run_.rapid_mm, move);
+      if (event.kind != execution::MoveKind::Rapid) add_travel(run_.feed_mm, move);
+    }
+    if (move.exact_stop) append(ActionKind::ExactStop);
+  }
+  void add_motion(const running::MoveEvent& event, const kinematics::Move& move, double turn) {
+    MachineAction& action = append(ActionKind::Motion);
+    action.is_rapid = event.kind == execution::MoveKind::Rapid;
+    action.is_inverse_time = event.inverse_time && !action.is_rapid;
+    action.is_by_joints =
+        action.is_rapid && turn > 0 && machine_.motion.kinematics.kind != kinematics::MachineKind::ThreeAxis;
+    action.value = action.is_rapid ? 0 : event.feed;
+    action.feed = action.is_rapid ? 0 : running::feed_of(event);
+    action.from = move.from;
+    action.to = move.to;
+    if (!move.is_arc) return;
+    action.arc = static_cast<std::uint32_t>(run_.arcs.size());
+    run_.arcs.push_back({move.center, move.normal, move.sweep_deg});
+  }
+  void add_travel(double& length, const kinematics::Move& move) {
+    const kinematics::TipTravel travel = kinematics::tip_travel(machine_.motion, move);
+    length += travel.length;
+    if (!run_.has_motion) run_.extents = travel.extents;
+    run_.has_motion = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) run_.extents[axis].include(travel.extents[axis]);
+  }
+
+  void add(const running::DwellEvent& dwell, const simulation::TimedEvent&) {
+    if (dwell.seconds > 0) append(ActionKind::Dwell).value = dwell.seconds;
+  }
+  void add(const running::SpindleSpeedEvent& given, const simulation::TimedEvent&) { spindle_speed_ = given.speed; }
+  void add(const running::FunctionEvent& function, const simulation::TimedEvent&) {
+    if (!dialect::is_user_function(function.number)) return;  // The spindle's, which counts when it turns otherwise.
+    append(ActionKind::Function).number = static_cast<std::uint32_t>(run_.functions.size());
+    run_.functions.push_back(function);
+  }
+  void add(const running::ToolEvent& event, const simulation::TimedEvent&) {
+    const auto known = std::find_if(run_.tools.begin(), run_.tools.end(),
+                                    [&](const ActionTool& tool) { return tool.code == event.tool; });
+    tool_ = static_cast<std::uint32_t>(known - run_.tools.begin());
+    if (known == run_.tools.end()) run_.tools.push_back({event.tool, machine_.tool_length(event.tool)});
+    append(ActionKind::Tool);
+  }
+  void add(const running::FrameEvent& frame, const simulation::TimedEvent&) {
+    run_.frames.push_back({line_, frame.in_force});
+  }
+  void add(const running::JumpEvent& jump, const simulation::TimedEvent&) {
+    run_.decisions.push_back({line_, jump.taken, run_.actions.size()});
+  }
+  void add(const running::SignalEvent& signal, const simulation::TimedEvent&) {
+    append(ActionKind::Signal).number = signal.code->number;
+  }
+  void add(const running::ExactStopEvent&, const simulation::TimedEvent&) {}
+  void add(const running::EndEvent&, const simulation::TimedEvent&) {}
+
+  const simulation::TimedMachine& machine_;
+  RecordedRun run_;
+  std::size_t line_ = 0;
+  std::uint32_t tool_ = MachineAction::kNone;
+  simulation::Timing::SpindleMotion spindle_;
+  double spindle_speed_ = 0;
+};
+
+}  // namespace
+
+std::string_view error_of(const RecordedRun& run) {
+  const std::uint32_t number = run.actions.back().number;
+  return number == 0 ? std::string_view() : dialect::definition(static_cast<dialect::DiagnosticId>(number - 1)).code;
+}
+
+RecordedRun record(std::string_view text, const running::RunOptions& options, const simulation::TimedMachine& machine) {
+  ActionRecorder recorder(machine);
+  double seconds = 0;
+  const running::RunResult result =
+      simulation::run_timed(text, options, machine, {.event = [&](const simulation::TimedEvent& timed) {
+                              recorder.take(timed);
+                              seconds = std::max(seconds, timed.start + timed.duration + timed.wait);
+                            }});
+  return recorder.finish(result, seconds);
+}
+
+}  // namespace isocnc::comparison

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/geometry/range.h"
+#include "interpreter/kinematics/kinematics.h"
+#include "interpreter/running/runner.h"
+#include "interpreter/simulation/timing.h"
+
+namespace isocnc::comparison {
+
+enum class ActionKind : std::uint8_t { Motion, ExactStop, Dwell, Spindle, Function, Signal, Tool, End };
+
+/// One thing that the machine does, as far as it counts for behavior. Comments, formatting, modal words without an
+/// effect, and motions that go nowhere are none.
+struct MachineAction {
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  ActionKind kind = ActionKind::Motion;
+  bool is_rapid = false;
+  bool is_inverse_time = false;  ///< The feed is written under G93.
+  bool is_by_joints = false;     ///< A rapid that turns B or C: the joints go straight, not the tip (I.3.4.1).
+  std::uint32_t line = 0;        ///< From 0.
+  std::uint32_t tool = kNone;    ///< Index of the mounted tool in RecordedRun::tools; for Tool, of the new one.
+  std::uint32_t arc = kNone;     ///< Index in RecordedRun::arcs.
+  std::uint32_t frame = 0;       ///< Index in RecordedRun::frames of the frame in force.
+  /// Function: index in RecordedRun::functions. Spindle: 3, 4 or 5. Signal: its G. End: Ending, and the error's id.
+  std::uint32_t number = 0;
+  double value = 0;     ///< Motion: F as programmed. Dwell: seconds. Spindle: revolutions per minute.
+  double feed = 0;      ///< Motion: feed as a speed, mm/min or degrees/min; 0 for rapids.
+  geometry::Pose from;  ///< Motion: tip in the machine frame.
+  geometry::Pose to;
+
+  bool is_motion() const { return kind == ActionKind::Motion; }
+  bool is_line() const { return is_motion() && arc == kNone && !is_by_joints; }
+};
+
+/// The circle of an arc; machine frame.
+struct ActionArc {
+  geometry::Vec3 center = geometry::Vec3::Zero();
+  geometry::Vec3 normal = geometry::Vec3::UnitZ();
+  double sweep_deg = 0;
+};
+
+struct ActionTool {
+  execution::ToolCode code;
+  double length = 0;  ///< mm.
+};
+
+struct ActionFrame {
+  std::size_t line = 0;   ///< Of the G that brought it into force, from 0.
+  geometry::Frame frame;  ///< In the machine frame.
+};
+
+/// An IF that a run has met.
+struct ActionDecision {
+  std::size_t line = 0;  ///< From 0.
+  bool is_taken = false;
+  std::size_t action = 0;  ///< Index of the next action.
+};
+
+/// What the machine does in a run of a program.
+struct RecordedRun {
+  std::vector<MachineAction> actions;  ///< The last one is End.
+  std::vector<ActionArc> arcs;
+  std::vector<ActionTool> tools;
+  std::vector<ActionFrame> frames;  ///< The first one is the machine frame.
+  std::vector<running::FunctionEvent> functions;
+  std::vector<ActionDecision> decisions;
+  kinematics::Kinematics kinematics;
+  double seconds = 0;   ///< Cycle time.
+  double feed_mm = 0;   ///< Length of the tip's path in feed moves.
+  double rapid_mm = 0;  ///< And in rapids.
+  bool has_motion = false;
+  std::array<geometry::Range, 3> extents;  ///< Of the tip, machine frame; without meaning where there is no motion.
+};
+
+/// The code of the error that ended a run, such as ISO031; empty for a run to its M02.
+std::string_view error_of(const RecordedRun& run);
+
+/// Runs a program on the machine, with compensation and times.
+RecordedRun record(std::string_view text, const running::RunOptions& options, const simulation::TimedMachine& machine);
+
+}  // namespace isocnc::comparison

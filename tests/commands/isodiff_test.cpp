@@ -1,0 +1,185 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "programs.h"
+#include "run_command.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_of_file.h"
+
+namespace isocnc::commands {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+using json = nlohmann::json;
+
+const std::string kOld =
+    "M06 T101001\n"
+    "S12000 M03\n"
+    "G00 X10 Y20 Z40\n"
+    "G01 Z-5 F2000\n"
+    "X100\n"
+    "Y80\n"
+    "M02\n";
+const std::string kNew =
+    "M06 T101001\n"
+    "S9000 M03\n"
+    "G00 X10 Y20 Z40\n"
+    "G01 Z-5 F2000\n"
+    "X101\n"
+    "Y80\n"
+    "M02\n";
+
+/// Two programs in a folder.
+class IsodiffCommand : public testing::Test {
+ protected:
+  IsodiffCommand() {
+    folder_.write("old.iso", kOld);
+    folder_.write("new.iso", kNew);
+  }
+
+  CommandResult diff(std::vector<std::string> options, const std::string& input = "") const {
+    options.insert(options.begin(), "isodiff");
+    return run_command(options, {.input = input, .folder = folder_.path()});
+  }
+
+  support::TemporaryFolder folder_;
+};
+
+TEST_F(IsodiffCommand, SaysThatNothingDiffers) {
+  const CommandResult result = diff({"old.iso", "old.iso"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, "no difference\n");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(IsodiffCommand, ListsChangesByTool) {
+  const CommandResult result = diff({"old.iso", "new.iso"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.out,
+            "T101001\n"
+            "  line 2: S9000 M03 instead of S12000 M03\n"
+            "  lines 5-6: moved by X1\n"
+            "feed moves: 196 mm, were 195 mm\n"
+            "extent in X: 0 to 101, was 0 to 100 (machine)\n"
+            "2 differences\n");
+  EXPECT_THAT(diff({"--lang", "it", "old.iso", "new.iso"}).out, StartsWith("T101001\n"
+                                                                           "  riga 2: S9000 M03 invece di S12000 M03\n"
+                                                                           "  righe 5-6: spostato di X1\n"));
+}
+
+TEST_F(IsodiffCommand, WritesJson) {
+  const CommandResult result = diff({"--format", "json", "old.iso", "new.iso"});
+  EXPECT_EQ(result.status, 1);
+  const json both = json::parse(result.out);
+  EXPECT_EQ(both.at("same"), false);
+  EXPECT_NEAR(both.at("old").at("time").get<double>(),
+              json::parse(run_command({"isorun", "--json", folder_.path("old.iso")}).out).at("seconds"), 1e-9);
+  EXPECT_EQ(both.at("changes"), json::parse(R"([
+      {"kind": "speed", "old": [2, 2], "new": [2, 2], "tool": "T101001", "distance": null,
+       "text": "S9000 M03 instead of S12000 M03"},
+      {"kind": "moved", "old": [5, 6], "new": [5, 6], "tool": "T101001", "distance": 1.0, "text": "moved by X1"}])"));
+  EXPECT_EQ(json::parse(diff({"--format", "json", "old.iso", "old.iso"}).out).at("changes"), json::array());
+}
+
+TEST_F(IsodiffCommand, ItsJsonFitsItsSchema) {
+  folder_.write("error.iso", kOld.substr(0, kOld.size() - 4) + "G01\n");
+  folder_.write("added.iso", "G00 X10\n" + kOld);
+  json documents;
+  for (const char* const other : {"old.iso", "new.iso", "error.iso", "added.iso"}) {
+    json both = json::parse(diff({"--format", "json", "old.iso", other}).out);
+    documents.push_back({{"document", both}, {"valid", true}});
+    both["changes"].push_back({{"kind", "other"}});
+    documents.push_back({{"document", both}, {"valid", false}});
+  }
+  const json schema = json::parse(text_of_file(ISOCNC_SOURCE_DIR "/docs/isodiff.schema.json"));
+  const std::string task = folder_.write("task.json", json{{"schema", schema}, {"documents", documents}}.dump());
+  const std::string log = folder_.path("log");
+  const std::string command = "python3 " ISOCNC_SOURCE_DIR "/tests/support/validate.py " + task + " >" + log + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(text_of_file(log), "8 documents\n");
+}
+
+TEST_F(IsodiffCommand, ReadsStandardInput) {
+  EXPECT_EQ(diff({"-", "old.iso"}, kOld).out, "no difference\n");
+  EXPECT_EQ(diff({"old.iso", "/dev/stdin"}, kNew).status, 1);
+  const CommandResult result = diff({"-", "-"}, kOld);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err, "isodiff: only one of the programs can come from standard input\n");
+}
+
+TEST_F(IsodiffCommand, WritesAFile) {
+  const CommandResult result = diff({"-o", "result", "old.iso", "new.iso"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(text_of_file(folder_.path("result")), StartsWith("T101001\n"));
+}
+
+TEST_F(IsodiffCommand, OverwritesNoneOfThePrograms) {
+  const CommandResult result = diff({"-o", "new.iso", "old.iso", "new.iso"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err, "isodiff: new.iso: this would overwrite new.iso\n");
+}
+
+TEST_F(IsodiffCommand, IgnoresWhatIsAskedFor) {
+  EXPECT_THAT(diff({"--ignore", "speed,feed", "old.iso", "new.iso"}).out, EndsWith("1 difference\n"));
+  EXPECT_EQ(diff({"--ignore", "speed", "--ignore=time,comments", "--tolerance", "1.5", "old.iso", "new.iso"}).out,
+            "no difference\n");
+}
+
+TEST_F(IsodiffCommand, RunsBothUnderTheSameValues) {
+  folder_.write("a.iso", "M06 T101001\nIF VGPL = 1 GOTO N5\nG00 X10\nN5 G00 X20 Y5\nM02\n");
+  folder_.write("b.iso", "M06 T101001\nIF V3 = 1 GOTO N5\nG00 X10\nN5 G00 X20 Y5\nM02\n");
+  EXPECT_EQ(diff({"a.iso", "b.iso"}).status, 0);
+  EXPECT_EQ(diff({"--vgpl", "1", "--set", "V3=1", "a.iso", "b.iso"}).status, 0);
+  EXPECT_THAT(diff({"--set", "V3=1", "a.iso", "b.iso"}).out,
+              HasSubstr("the IF of line 2 jumps in the new program only"));
+}
+
+TEST_F(IsodiffCommand, EachProgramHasTheMachineAboveIt) {
+  folder_.write("isocnc.json", R"({"machine": {"home": {"z": 100}}})");
+  folder_.write("other/isocnc.json", R"({"machine": {"home": {"z": 150}}})");
+  folder_.write("other/old.iso", kOld);
+  EXPECT_EQ(diff({"old.iso", "other/old.iso"}).status, 1);
+  EXPECT_EQ(diff({"--no-config", "old.iso", "other/old.iso"}).status, 0);
+  EXPECT_EQ(diff({"--config", "isocnc.json", "old.iso", "other/old.iso"}).status, 0);
+  EXPECT_EQ(diff({"--machine", "isocnc.json", "old.iso", "other/old.iso"}).status, 0);
+}
+
+TEST_F(IsodiffCommand, SaysWhereBothStop) {
+  folder_.write("a.iso", kBrokenProgram);
+  folder_.write("b.iso", std::string("( the same )\n").append(kBrokenProgram));
+  const CommandResult result = diff({"a.iso", "b.iso"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, "no difference\nboth stop at an error: ISO026 on line 3, ISO026 on line 4\n");
+}
+
+TEST_F(IsodiffCommand, RefusesMistakes) {
+  const auto refusal = [&](std::vector<std::string> options) {
+    options.insert(options.end(), {"old.iso", "new.iso"});
+    const CommandResult result = diff(options);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    return result.err;
+  };
+  EXPECT_EQ(refusal({"--tolerance", "0"}),
+            "isodiff: --tolerance takes a plain number of mm above 0, such as 0.001, not 0\n");
+  EXPECT_EQ(refusal({"--ignore", "feed,color"}), "isodiff: --ignore takes feed, speed, time or comments, not color\n");
+  EXPECT_EQ(refusal({"--vgpl", "x"}), "isodiff: --vgpl takes a plain number, such as -2.5, not x\n");
+  EXPECT_EQ(refusal({"--set", "V31=1"}),
+            "isodiff: --set takes a register and a plain number, V1=0 to V30=-2.5, not V31=1\n");
+  EXPECT_THAT(refusal({"--format", "html"}), HasSubstr("html"));
+  const CommandResult result = diff({"old.iso", "none.iso"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, StartsWith("isodiff: none.iso: "));
+}
+
+}  // namespace
+}  // namespace isocnc::commands

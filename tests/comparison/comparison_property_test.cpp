@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "tests/comparison/compared.h"
+#include "tests/comparison/random_part.h"
+
+namespace isocnc::comparison {
+namespace {
+
+/// How many random programs are tried: 10,000 with ISOCNC_COMPARISONS=10000.
+std::uint64_t tries() {
+  const char* const given = std::getenv("ISOCNC_COMPARISONS");
+  return given != nullptr ? std::strtoull(given, nullptr, 10) : support::often(300);
+}
+
+/// The changes as they are with both programs swapped, written independently of compare().
+std::vector<BehaviorChange> swapped(std::vector<BehaviorChange> changes) {
+  for (BehaviorChange& change : changes) {
+    std::swap(change.old_lines, change.new_lines);
+    std::swap(change.old_tool, change.new_tool);
+    std::swap(change.old_value, change.new_value);
+    std::swap(change.old_motions, change.new_motions);
+    std::swap(change.old_cause, change.new_cause);
+    if (change.shift) *change.shift *= -1;
+    if (change.kind == ChangeKind::Added) {
+      change.kind = ChangeKind::Removed;
+    } else if (change.kind == ChangeKind::Removed) {
+      change.kind = ChangeKind::Added;
+    }
+  }
+  return changes;
+}
+
+/// The changes between two programs, which have to be mirrored the other way around.
+std::vector<BehaviorChange> symmetric_changes(const std::string& old_program, const std::string& new_program) {
+  const RecordedRun old_run = recorded(old_program);
+  const RecordedRun new_run = recorded(new_program);
+  const std::vector<BehaviorChange> changes = compare(old_run, new_run, {});
+  EXPECT_EQ(shown(swapped(compare(new_run, old_run, {}))), shown(changes));
+  EXPECT_EQ(swapped(compare(new_run, old_run, {})), changes);
+  return changes;
+}
+
+std::string failure(std::uint64_t seed, const std::string& old_program, const std::string& new_program) {
+  return fmt::format("seed {}\nold:\n{}new:\n{}", seed, old_program, new_program);
+}
+
+TEST(ComparisonProperty, WritingMakesNoDifference) {
+  for (std::uint64_t seed = 1; seed <= tries(); ++seed) {
+    support::Random random(seed);
+    const RandomPart part = random_part(random, random.between(3, 80));
+    const WritingStyle style{.is_incremental = random.one_in(2),
+                             .is_in_inches = random.one_in(2),
+                             .by_radius = random.one_in(2),
+                             .is_numbered = random.one_in(2),
+                             .is_split = random.one_in(2)};
+    const std::string plain = written(part).text;
+    const std::string other = written(part, style).text;
+    const RecordedRun run = recorded(plain);
+    ASSERT_GE(run.actions.size(), part.steps.size() + 3) << failure(seed, plain, "");
+    ASSERT_EQ(run.actions.back().number, 0U) << failure(seed, plain, "");
+    ASSERT_EQ(shown(symmetric_changes(plain, other)), "") << failure(seed, plain, other);
+  }
+}
+
+TEST(ComparisonProperty, ChordsWithinTheToleranceMakeNoDifference) {
+  for (std::uint64_t seed = 1; seed <= tries() / 10; ++seed) {
+    support::Random random(seed);
+    const RandomPart part = random_part(random, random.between(3, 40));
+    // With 720 chords of a half circle of 60 mm they are 0.06 * 60 / 720^2 mm from it, with 36 they are 0.06 mm or more
+    // from a circle of 1 mm... and more from larger ones.
+    const std::string plain = written(part).text;
+    const std::string fine = written(part, {.chords = 720}).text;
+    ASSERT_EQ(shown(symmetric_changes(plain, fine)), "") << failure(seed, plain, "");
+  }
+}
+
+// A single change, found and found alone.
+
+enum class SeededChange { Coordinate, Feed, LineLost, LinesSwapped, Tool, Speed, Increment };
+
+/// A step whose change counts for itself: a straight motion that leads elsewhere and from which no arc starts.
+std::optional<std::size_t> free_step(const RandomPart& part, support::Random& random) {
+  for (int i = 0; i < 100; ++i) {
+    const std::size_t step = 1 + random.below(part.steps.size() - 1);
+    if (part.is_free(step)) return step;
+  }
+  return std::nullopt;
+}
+
+/// A row of points on two lines, dense enough for a distance to 0.001 mm where it is checked.
+double dense_distance(const std::vector<geometry::Vec3>& from, const std::vector<geometry::Vec3>& to) {
+  const auto to_chain = [&](const geometry::Vec3& point) {
+    double nearest = 1e300;
+    for (std::size_t i = 0; i + 1 < to.size(); ++i) {
+      const geometry::Vec3 along = to[i + 1] - to[i];
+      const double square = along.squaredNorm();
+      const double part = square > 0 ? std::clamp(along.dot(point - to[i]) / square, 0.0, 1.0) : 0;
+      nearest = std::min(nearest, (to[i] + part * along - point).norm());
+    }
+    return nearest;
+  };
+  double farthest = 0;
+  for (std::size_t i = 0; i + 1 < from.size(); ++i)
+    for (int k = 0; k <= 4000; ++k)
+      farthest = std::max(farthest, to_chain(from[i] + (from[i + 1] - from[i]) * (k / 4000.0)));
+  return farthest;
+}
+
+geometry::Vec3 point_of(const std::array<int, 3>& micrometers) {
+  return geometry::Vec3(micrometers[0], micrometers[1], micrometers[2]) / 1000;
+}
+
+TEST(ComparisonProperty, ASingleChangeIsFoundAlone) {
+  for (std::uint64_t seed = 1; seed <= tries(); ++seed) {
+    support::Random random(seed);
+    const RandomPart part = random_part(random, random.between(5, 80));
+    RandomPart changed = part;
+    const std::optional<std::size_t> found = free_step(part, random);
+    if (!found) continue;
+    const std::size_t step = *found;
+    const auto kind = static_cast<SeededChange>(random.between(0, 6));
+    WritingStyle style{.is_numbered = random.one_in(2)};
+    ChangeKind expected = ChangeKind::Moved;
+    switch (kind) {
+      case SeededChange::Coordinate:
+        changed.steps[step].to[random.below(3)] += random.between(50, 20'000);
+        break;
+      case SeededChange::Increment:
+        style.is_incremental = true;
+        for (std::size_t i = step; i < changed.steps.size(); ++i) {
+          changed.steps[i].to[0] += 7000;
+          changed.steps[i].center[0] += 7000;
+        }
+        break;
+      case SeededChange::Feed:
+        if (part.steps[step].kind != PartStep::Kind::Line) continue;
+        changed.steps[step].feed += 50;
+        expected = ChangeKind::Feed;
+        break;
+      case SeededChange::LineLost:
+        changed.steps.erase(changed.steps.begin() + static_cast<std::ptrdiff_t>(step));
+        expected = ChangeKind::Removed;
+        break;
+      case SeededChange::LinesSwapped:
+        if (!part.is_free(step + 1)) continue;
+        std::swap(changed.steps[step], changed.steps[step + 1]);
+        expected = ChangeKind::Reordered;
+        break;
+      case SeededChange::Tool:
+        changed.tool = 101002;
+        expected = ChangeKind::Tool;
+        break;
+      case SeededChange::Speed:
+        changed.speed = 9000;
+        expected = ChangeKind::Speed;
+        break;
+    }
+    const WrittenPart before = written(part, style);
+    const WrittenPart after = written(changed, style);
+    const std::vector<BehaviorChange> changes = symmetric_changes(before.text, after.text);
+    ASSERT_EQ(changes.size(), 1U) << shown(changes) << failure(seed, before.text, after.text);
+    const BehaviorChange& change = changes[0];
+    ASSERT_EQ(change.kind, expected) << shown(changes) << failure(seed, before.text, after.text);
+    if (kind == SeededChange::Tool || kind == SeededChange::Speed) continue;
+    ASSERT_EQ(change.old_lines->first, before.lines[step]) << shown(changes) << failure(seed, before.text, after.text);
+    if (kind == SeededChange::Increment) {
+      ASSERT_LT((*change.shift - geometry::Vec3(7, 0, 0)).norm(), 1e-9) << seed;
+      continue;
+    }
+    const std::size_t last = kind == SeededChange::LinesSwapped ? step + 1 : step;
+    ASSERT_EQ(change.old_lines->last, before.lines[last]) << shown(changes) << failure(seed, before.text, after.text);
+    if (kind != SeededChange::Coordinate) continue;
+    // The distance against a dense reference.
+    std::vector<geometry::Vec3> old_path;
+    std::vector<geometry::Vec3> new_path;
+    std::size_t first = step;
+    while (!part.steps[--first].is_motion()) continue;
+    for (std::size_t i = first; i < part.steps.size(); ++i) {
+      if (!part.steps[i].is_motion()) continue;
+      old_path.push_back(point_of(part.steps[i].to));
+      new_path.push_back(point_of(changed.steps[i].to));
+      if (i > step) break;
+    }
+    const double reference = std::max(dense_distance(old_path, new_path), dense_distance(new_path, old_path));
+    // Between two points of the reference it can be farther by half of what lies between them.
+    ASSERT_GE(*change.distance, reference - 0.001) << failure(seed, before.text, after.text);
+    ASSERT_LE(*change.distance, reference + 0.05) << failure(seed, before.text, after.text);
+  }
+}
+
+}  // namespace
+}  // namespace isocnc::comparison

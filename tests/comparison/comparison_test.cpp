@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/comparison/compared.h"
+
+namespace isocnc::comparison {
+namespace {
+
+/// Programs, and what the second one does differently.
+struct ComparisonCase {
+  const char* name;
+  std::string old_program;
+  std::string new_program;
+  std::string changes;
+};
+
+void PrintTo(const ComparisonCase& each, std::ostream* out) { *out << each.name; }
+
+const std::string kHead = "M06 T101001\nS12000 M03\nG00 X10 Y20 Z40\n";
+const std::string kSquare = kHead + "G01 Z-5 F2000\nX100\nY80\nX10\nY20\nG00 Z40\nM02\n";
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  const std::size_t place = text.find(what);
+  EXPECT_NE(place, std::string::npos) << what;
+  return text.replace(place, what.size(), with);
+}
+
+std::string square(const std::string& what, const std::string& with) { return replaced(kSquare, what, with); }
+
+/// A drilled row under G91.
+const std::string kRow =
+    "M06 T101001\nG91\nG00 X10 Y5\nG01 Z-3 F500\nG00 Z3\nX20\nG01 Z-3\nG00 Z3\nX20\nG01 Z-3\nG00 Z3\nG90\nX0 Y0\nM02\n";
+
+const ComparisonCase kCases[] = {
+    // Nothing that the machine would notice.
+    {"Itself", kSquare, kSquare, ""},
+    {"Comments", kSquare, "( square )\n" + kSquare + "; end\n", ""},
+    {"Numbers", kHead + "X20\nM02\n", "N10 M06 T101001\nN20 S12000 M03\nN30 G00 X10 Y20 Z40\nN40 X20\nN50 M02\n", ""},
+    {"OneLineAsTwo", kSquare, square("X100\n", "X40\nX70\nX100\n"), ""},
+    {"OneLineAsTwoWithOtherWords", kSquare, square("Y80\n", "X100 Y50\nG01 Y80\n"), ""},
+    {"ModalWordsWithoutEffect", kSquare, square("X100\n", "G01 X100 F2000\n"), ""},
+    {"FeedWithoutMotion", kSquare, square("G00 Z40\nM02", "G00 Z40\nF800\nM02"), ""},
+    {"SpeedWithoutStart", kSquare, square("G00 Z40\nM02", "G00 Z40\nS800\nM02"), ""},
+    {"MotionThatGoesNowhere", kSquare, square("Y80\n", "X100\nY80\n"), ""},
+    {"FrameThatIsUndone", kHead + "X50\nY9\nM02\n", kHead + "G92 X5 Y0 Z0\nX45\nG92 X0 Y0 Z0\nY9\nM02\n", ""},
+    {"JumpThatIsNotTaken", kSquare, square("X100\n", "IF VGPL = 1 GOTO N7\nX100\nN7\n"), ""},
+    {"SmallerThanTheTolerance", kSquare, square("X100\n", "X100.0009\n"), ""},
+    {"ArcByRadiusOrCenter", kHead + "G03 X30 Y0 I30 J20 F500\nM02\n", kHead + "G03 X30 Y0 R20 F500\nM02\n", ""},
+    {"HalfCircleAsQuarters", kHead + "G02 X50 Y20 I30 J20 F500\nM02\n",
+     kHead + "G02 X30 Y40 I30 J20 F500\nX50 Y20 I30 J20\nM02\n", ""},
+    {"InverseTime", kHead + "G01 X110 F1000\nM02\n", kHead + "G93 G01 X110 F10\nM02\n", ""},
+
+    // Places.
+    {"Coordinate", kSquare, square("X100\n", "X101\n"), "moved 5-6|5-6: moved by X1\n"},
+    {"CoordinateOfOneMotion", kHead + "X50 Y50\nX100 Y0\nM02\n", kHead + "X50 Y50.5\nX100 Y0\nM02\n",
+     "moved 4|4: moved by Y0.5\n"},
+    {"LastMotion", kSquare, square("G00 Z40\nM02", "G00 Z30\nM02"), "moved 9|9: moved by Z-10\n"},
+    {"Depth", kSquare, square("Z-5 ", "Z-5.2 "), "moved 4-8|4-8: moved by Z-0.2\n"},
+    {"IncrementMovesWhatFollows", kRow, replaced(kRow, "G00 Z3\nX20\n", "G00 Z3\nX21\n"),
+     "moved 6-11|6-11: moved by X1\n"},
+    {"Zero", "M06 T101001\nG92 X5 Y0 Z0\nG00 X10\nY10\nX20\nY50\nM02\n",
+     "M06 T101001\nG92 X7 Y0 Z0\nG00 X10\nY10\nX20\nY50\nM02\n",
+     "frame 3-6|3-6: moved by X2: the frame of line 2 is elsewhere\n"},
+    {"ArcAsLine", kHead + "G03 X50 Y20 I30 J20 F500\nM02\n", kHead + "G01 X50 Y20 F500\nM02\n",
+     "shape 4|4: another path, up to 20 mm away\n"},
+    {"OtherWayAround", kHead + "G03 X50 Y20 I30 J20 F500\nM02\n", kHead + "G02 X50 Y20 I30 J20 F500\nM02\n",
+     "shape 4|4: another path, up to 28.284 mm away\n"},
+    {"ArcAsCoarseChords", kHead + "G03 X50 Y20 I30 J20 F500\nM02\n", kHead + "G01 X30 Y0 F500\nX50 Y20\nM02\n",
+     "added -|4: added: 1 motion\n"},
+    {"Turn", kHead + "G49\nG01 X20 B10 F500\nX50 Y7\nM02\n", kHead + "G49\nG01 X20 B12 F500\nX50 Y7\nM02\n",
+     "moved 5-6|5-6: B or C turned by up to 2 degrees\n"},
+
+    // Motions more or less, and their order.
+    {"LineLost", kHead + "X50 Y50\nX100 Y0\nX0 Y7\nM02\n", kHead + "X50 Y50\nX0 Y7\nM02\n",
+     "removed 5|-: removed: 1 motion\n"},
+    {"LineGained", kHead + "X50 Y50\nX0 Y7\nM02\n", kHead + "X50 Y50\nX100 Y0\nX9 Y9\nX0 Y7\nM02\n",
+     "added -|5-6: added: 2 motions\n"},
+    {"HoleOfAGrid",
+     kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX40\nG01 Z0\nG00 Z40\nX60\nG01 Z0\nG00 Z40\nX80\nG01 Z0\nG00 Z40\nM02\n",
+     kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX60\nG01 Z0\nG00 Z40\nX80\nG01 Z0\nG00 Z40\nM02\n",
+     "removed 7-9|-: removed: 3 motions\n"},
+    {"LinesSwapped", kHead + "X50 Y50\nX100 Y0\nX0 Y7\nM02\n", kHead + "X100 Y0\nX50 Y50\nX0 Y7\nM02\n",
+     "reordered 4-5|4-5: order changed\n"},
+    {"IncrementsSwapped", kHead + "G91\nX50 Y50\nX100 Y0\nX9 Y7\nM02\n", kHead + "G91\nX100 Y0\nX50 Y50\nX9 Y7\nM02\n",
+     "reordered 5-6|5-6: order changed\n"},
+
+    // What is no motion.
+    {"Feed", kSquare, square("F2000", "F3000"), "feed 4-8|4-8: F3000 instead of F2000\n"},
+    {"FeedOnTheWay", kSquare, square("X100\n", "X40\nX100 F3000\nF2000\n"), "feed 5|6: F3000 instead of F2000\n"},
+    {"RapidInsteadOfFeed", kHead + "G01 X50 F500\nM02\n", kHead + "G00 X50\nM02\n", "feed 4|4: G00 instead of F500\n"},
+    {"Speed", kSquare, square("S12000", "S9000"), "speed 2|2: S9000 M03 instead of S12000 M03\n"},
+    {"SpindleStop", kSquare, square("G00 Z40\nM02", "G00 Z40\nM05\nM02"), "speed -|10: added: M05\n"},
+    {"Tool", kSquare, square("T101001", "T101002"), "tool 1|1: T101002 instead of T101001\n"},
+    {"Function", kSquare, square("G00 Z40\nM02", "G00 Z40\nM100 P1=2\nM02"), "function -|10: added: M100 P1=2\n"},
+    {"Parameter", kSquare + "", square("G00 Z40\nM02", "G00 Z40\nM100 P1=3\nM02"), "function -|10: added: M100 P1=3\n"},
+    {"Dwell", kHead + "G04 P1\nM02\n", kHead + "G04 P1.5\nM02\n", "dwell 4|4: dwell of 1.5 s instead of 1 s\n"},
+    {"ExactStop", kSquare, square("X100\n", "X100 G09\n"), "function -|5: added: G09\n"},
+    {"Path", kHead + "IF VGPL = 1 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nX110\nX120\nM02\n",
+     kHead + "IF VGPL = 0 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nX110\nX120\nM02\n",
+     "path 5-6|4: another path: the IF of line 4 jumps in the new program only (0 motions instead of 2)\n"},
+    {"Error", kHead + "G02 X30 Y0 R20 F500\nG01 X7\nM02\n", kHead + "G02 X30 Y0 R2 F500\nG01 X7\nM02\n",
+     "end 4-6|4: ends with ISO030 instead of M02: from here on 0 motions instead of 2\n"},
+
+    // Several at once.
+    {"TwoFarApart", kSquare, replaced(square("S12000", "S9000"), "G00 Z40\nM02", "G00 Z30\nM02"),
+     "speed 2|2: S9000 M03 instead of S12000 M03\nmoved 9|9: moved by Z-10\n"},
+    {"CoordinateAndFeed", kHead + "G01 X50 Y50 F500\nX100 Y0\nM02\n", kHead + "G01 X50 Y51 F400\nX100 Y0\nM02\n",
+     "moved 4|4: moved by Y1\nfeed 4-5|4-5: F400 instead of F500\n"},
+};
+
+class ComparisonTable : public testing::TestWithParam<ComparisonCase> {};
+
+TEST_P(ComparisonTable, NamesTheChanges) {
+  EXPECT_EQ(shown(changes_between(GetParam().old_program, GetParam().new_program)), GetParam().changes);
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, ComparisonTable, testing::ValuesIn(kCases),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Comparison, IgnoresWhatIsAskedFor) {
+  const std::string changed = kHead + "G04 P2\n" + "G01 X50 F500 G09\nM02\n";
+  const std::string old_program = "M06 T101001\nS9000 M03\nG00 X10 Y20 Z40\nG04 P1\nG01 X50 F600\nM02\n";
+  EXPECT_EQ(shown(changes_between(old_program, changed)),
+            "speed 2|2: S12000 M03 instead of S9000 M03\ndwell 4|4: dwell of 2 s instead of 1 s\n"
+            "feed 5|5: F500 instead of F600\nfunction -|5: added: G09\n");
+  EXPECT_EQ(shown(changes_between(old_program, changed, {.ignores_time = true})),
+            "speed 2|2: S12000 M03 instead of S9000 M03\nfeed 5|5: F500 instead of F600\n");
+  EXPECT_EQ(
+      shown(changes_between(old_program, changed, {.ignores_feed = true, .ignores_speed = true, .ignores_time = true})),
+      "");
+}
+
+TEST(Comparison, ToleranceDecides) {
+  EXPECT_EQ(shown(changes_between(kSquare, square("X100\n", "X100.05\n"), {.tolerance = 0.06})), "");
+  EXPECT_EQ(shown(changes_between(kSquare, square("X100\n", "X100.05\n"), {.tolerance = 0.04})),
+            "moved 5-6|5-6: moved by X0.05\n");
+}
+
+TEST(Comparison, SpeaksItalian) {
+  const std::vector<BehaviorChange> changes = changes_between(kSquare, square("X100\n", "X101\n"));
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(in_words(changes[0], dialect::Language::Italian), "spostato di X1");
+}
+
+TEST(Comparison, RecordsTotals) {
+  const RecordedRun run = recorded(kSquare);
+  EXPECT_NEAR(run.feed_mm, 45 + 90 + 60 + 90 + 60, 1e-9);
+  EXPECT_NEAR(run.rapid_mm, std::hypot(10, 20, 40) + 45, 1e-9);
+  EXPECT_EQ(run.extents[0].maximum, 100);
+  EXPECT_EQ(run.extents[2].minimum, -5);
+}
+
+}  // namespace
+}  // namespace isocnc::comparison
