@@ -224,8 +224,8 @@ class Aligner {
 
   bool is_new(const Vec3& shift) const { return shift != shift_ && !shift.isZero(0); }
 
-  /// Whether both do the same from a place on. A motion has to be among it, if there is one soon, since what is no motion
-  /// is the same wherever the machine stands; for a new shift in any case.
+  /// Whether both do the same from a place on. A motion has to be among it, if there is one soon, since what is no
+  /// motion is the same wherever the machine stands; for a new shift in any case.
   bool is_confirmed(PlaceInBoth place, const Vec3& shift) const {
     constexpr int kMaxWithoutMotion = 12;
     bool has_motion = false;

@@ -73,11 +73,15 @@ std::string trimmed(double number) {
   return text == "-0" ? "0" : text;
 }
 
+/// `1 h 02 min 03.4 s`, `2 min 03.4 s`, `3.4 s`.
 std::string shown_seconds(double seconds) {
   const double tenths = std::round(seconds * 10);
   const double minutes = std::floor(tenths / 600);
-  if (minutes > 0) return fmt::format("{:.0f} min {:04.1f} s", minutes, (tenths - minutes * 600) / 10);
-  return fmt::format("{:.1f} s", tenths / 10);
+  const double hours = std::floor(minutes / 60);
+  const double rest = (tenths - minutes * 600) / 10;
+  if (hours > 0) return fmt::format("{:.0f} h {:02.0f} min {:04.1f} s", hours, minutes - hours * 60, rest);
+  if (minutes > 0) return fmt::format("{:.0f} min {:04.1f} s", minutes, rest);
+  return fmt::format("{:.1f} s", rest);
 }
 
 /// The vector as programs write it: `X10 Z-0.5`; what rounds to 0 is left out.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,25 @@ TEST_F(IsodiffCommand, ItsJsonFitsItsSchema) {
   const std::string command = "python3 " ISOCNC_SOURCE_DIR "/tests/support/validate.py " + task + " >" + log + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(text_of_file(log), "8 documents\n");
+}
+
+/// Each way to write the examples makes the machine do the same.
+TEST_F(IsodiffCommand, FormattingMakesNoDifference) {
+  const std::vector<std::vector<std::string>> styles = {
+      {}, {"--modal", "write", "--g-digits", "2"}, {"--modal", "fold", "--decimals", "4", "--renumber", "10:10"}};
+  std::size_t programs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(ISOCNC_SOURCE_DIR "/examples")) {
+    if (entry.path().extension() != ".iso") continue;
+    ++programs;
+    for (std::vector<std::string> style : styles) {
+      style.insert(style.begin(), {"isofmt", "--no-config", "--stdout", entry.path().string()});
+      const std::string formatted = run_command(style).out;
+      EXPECT_FALSE(formatted.empty());
+      const CommandResult result = diff({"--no-config", entry.path().string(), "-"}, formatted);
+      EXPECT_EQ(result.out, "no difference\n") << entry.path();
+    }
+  }
+  EXPECT_GT(programs, 10U);
 }
 
 TEST_F(IsodiffCommand, ReadsStandardInput) {

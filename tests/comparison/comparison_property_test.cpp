@@ -5,6 +5,7 @@
 
 #include "tests/comparison/compared.h"
 #include "tests/comparison/random_part.h"
+#include "tests/simulation/random_run.h"
 
 namespace isocnc::comparison {
 namespace {
@@ -50,7 +51,7 @@ std::string failure(std::uint64_t seed, const std::string& old_program, const st
 TEST(ComparisonProperty, WritingMakesNoDifference) {
   for (std::uint64_t seed = 1; seed <= tries(); ++seed) {
     support::Random random(seed);
-    const RandomPart part = random_part(random, random.between(3, 80));
+    const RandomPart part = random_part(random, random.between(3, 80), random.one_in(4));
     const WritingStyle style{.is_incremental = random.one_in(2),
                              .is_in_inches = random.one_in(2),
                              .by_radius = random.one_in(2),
@@ -79,7 +80,7 @@ TEST(ComparisonProperty, ChordsWithinTheToleranceMakeNoDifference) {
 
 // A single change, found and found alone.
 
-enum class SeededChange { Coordinate, Feed, LineLost, LinesSwapped, Tool, Speed, Increment };
+enum class SeededChange { Coordinate, Feed, LineLost, LinesSwapped, Tool, Speed, Increment, Turn };
 
 /// A step whose change counts for itself: a straight motion that leads elsewhere and from which no arc starts.
 std::optional<std::size_t> free_step(const RandomPart& part, support::Random& random) {
@@ -116,17 +117,21 @@ geometry::Vec3 point_of(const std::array<int, 3>& micrometers) {
 TEST(ComparisonProperty, ASingleChangeIsFoundAlone) {
   for (std::uint64_t seed = 1; seed <= tries(); ++seed) {
     support::Random random(seed);
-    const RandomPart part = random_part(random, random.between(5, 80));
+    const RandomPart part = random_part(random, random.between(5, 80), random.one_in(4));
     RandomPart changed = part;
     const std::optional<std::size_t> found = free_step(part, random);
     if (!found) continue;
     const std::size_t step = *found;
-    const auto kind = static_cast<SeededChange>(random.between(0, 6));
+    const auto kind = static_cast<SeededChange>(random.between(0, 7));
     WritingStyle style{.is_numbered = random.one_in(2)};
     ChangeKind expected = ChangeKind::Moved;
     switch (kind) {
       case SeededChange::Coordinate:
         changed.steps[step].to[random.below(3)] += random.between(50, 20'000);
+        break;
+      case SeededChange::Turn:
+        if (!part.is_five_axis) continue;
+        changed.steps[step].turn[random.below(2)] += random.between(50, 5'000);
         break;
       case SeededChange::Increment:
         style.is_incremental = true;
@@ -184,11 +189,119 @@ TEST(ComparisonProperty, ASingleChangeIsFoundAlone) {
       new_path.push_back(point_of(changed.steps[i].to));
       if (i > step) break;
     }
+    // The tip of a rapid that turns B or C does not go straight, and the reference does.
+    if (part.is_five_axis) continue;
     const double reference = std::max(dense_distance(old_path, new_path), dense_distance(new_path, old_path));
     // Between two points of the reference it can be farther by half of what lies between them.
     ASSERT_GE(*change.distance, reference - 0.001) << failure(seed, before.text, after.text);
     ASSERT_LE(*change.distance, reference + 0.05) << failure(seed, before.text, after.text);
   }
+}
+
+/// Several changes far enough from each other: as many are found, each in its place.
+TEST(ComparisonProperty, SeveralChangesAreFoundEachInItsPlace) {
+  for (std::uint64_t seed = 1; seed <= tries() / 3; ++seed) {
+    support::Random random(seed);
+    const RandomPart part = random_part(random, 200, random.one_in(4));
+    RandomPart changed = part;
+    std::vector<std::size_t> steps;
+    for (std::size_t i = 5; i + 5 < part.steps.size(); ++i)
+      if (part.is_free(i) && (steps.empty() || i > steps.back() + 12) && random.one_in(3)) steps.push_back(i);
+    for (const std::size_t step : steps) changed.steps[step].to[1] += 1000;
+    const WrittenPart before = written(part);
+    const WrittenPart after = written(changed);
+    const std::vector<BehaviorChange> changes = symmetric_changes(before.text, after.text);
+    ASSERT_EQ(changes.size(), steps.size()) << shown(changes) << failure(seed, before.text, after.text);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const ChangedLines line{before.lines[steps[i]], before.lines[steps[i]]};
+      ASSERT_EQ(changes[i].kind, ChangeKind::Moved) << shown(changes) << failure(seed, before.text, after.text);
+      ASSERT_EQ(changes[i].old_lines, line) << shown(changes) << failure(seed, before.text, after.text);
+      ASSERT_EQ(changes[i].new_lines, line) << shown(changes) << failure(seed, before.text, after.text);
+      ASSERT_LT((*changes[i].shift - geometry::Vec3(0, 1, 0)).norm(), 1e-9) << seed;
+    }
+  }
+}
+
+/// Programs that contain all that a program can: jumps, compensation, frames, errors.
+TEST(ComparisonProperty, AProgramIsTheSameAsItself) {
+  for (const std::uint64_t seed : support::seeds(300)) {
+    support::Random random(seed);
+    const std::string program = simulation::RandomRun(random).text(random.between(1, 4));
+    ASSERT_EQ(shown(changes_between(program, program)), "") << program;
+    ASSERT_EQ(shown(changes_between(program, "( the same )\n" + program)), "") << program;
+  }
+}
+
+/// A program and the same one without a line, whatever that does: mirrored, and no failure.
+TEST(ComparisonProperty, AnyTwoProgramsCompareTheSameInBothWays) {
+  for (const std::uint64_t seed : support::seeds(300)) {
+    support::Random random(seed);
+    const std::string program = simulation::RandomRun(random).text(random.between(1, 4));
+    std::string other = program;
+    const std::size_t begin = other.find('\n', random.below(other.size()));
+    if (begin != std::string::npos) other.erase(begin, other.find('\n', begin + 1) - begin);
+    symmetric_changes(program, other);
+    support::Random another_random(seed + 100'000);
+    symmetric_changes(program, simulation::RandomRun(another_random).text(2));
+    if (HasFailure()) FAIL() << failure(seed, program, other);
+  }
+}
+
+// Differences larger than what is looked into in all ways.
+
+RandomPart without(RandomPart part, std::size_t begin, std::size_t end) {
+  part.steps.erase(part.steps.begin() + static_cast<std::ptrdiff_t>(begin),
+                   part.steps.begin() + static_cast<std::ptrdiff_t>(end));
+  return part;
+}
+
+class LargeDifferences : public testing::Test {
+ protected:
+  LargeDifferences() {
+    support::Random random(7);
+    part_ = random_part(random, 3000, true);
+  }
+
+  std::string changes(const RandomPart& other) const {
+    return shown(symmetric_changes(written(part_).text, written(other).text));
+  }
+  /// The first motion from a step on; it has line step + 5.
+  std::size_t motion_from(std::size_t step) const {
+    while (!part_.steps[step].is_motion()) ++step;
+    return step;
+  }
+
+  RandomPart part_;
+};
+
+TEST_F(LargeDifferences, BlockRemoved) {
+  const std::size_t begin = motion_from(1000);
+  const std::size_t end = motion_from(1400);
+  const RecordedRun old_run = recorded(written(part_).text);
+  const std::vector<BehaviorChange> changes =
+      compare(old_run, recorded(written(without(part_, begin, end)).text), ComparisonOptions{.ignores_time = true});
+  std::vector<ChangeKind> kinds;
+  for (const BehaviorChange& change : changes)
+    if (change.kind != ChangeKind::Function) kinds.push_back(change.kind);
+  ASSERT_EQ(kinds, std::vector{ChangeKind::Removed}) << shown(changes);
+}
+
+TEST_F(LargeDifferences, BlockElsewhere) {
+  part_.steps.erase(
+      std::remove_if(part_.steps.begin(), part_.steps.end(), [](const PartStep& step) { return !step.is_motion(); }),
+      part_.steps.end());
+  RandomPart other = part_;
+  std::rotate(other.steps.begin() + 500, other.steps.begin() + 600, other.steps.begin() + 1500);
+  EXPECT_EQ(changes(other), "reordered 505-604|1405-1504: order changed\n");
+}
+
+TEST_F(LargeDifferences, TooLargeToLookInto) {
+  support::Random random(8);
+  const RandomPart other = random_part(random, 3000, true);
+  const std::vector<BehaviorChange> all = symmetric_changes(written(part_).text, written(other).text);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].kind, ChangeKind::Shape);
+  EXPECT_FALSE(all[0].distance);
 }
 
 }  // namespace

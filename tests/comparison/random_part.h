@@ -19,6 +19,7 @@ struct PartStep {
   Kind kind = Kind::Line;
   std::array<int, 3> to{};      ///< Micrometers.
   std::array<int, 2> center{};  ///< Micrometers.
+  std::array<int, 2> turn{};    ///< B and C at the end, thousandths of a degree.
   bool is_counterclockwise = false;
   int feed = 1000;  ///< mm/min
   int number = 0;   ///< Dwell: tenths of a second. Function: its M.
@@ -30,6 +31,7 @@ struct PartStep {
 struct RandomPart {
   int tool = 101001;
   int speed = 12000;
+  bool is_five_axis = false;  ///< G49: lines turn B and C, and there are no arcs.
   std::vector<PartStep> steps;
 
   bool is_arc(std::size_t i) const { return i < steps.size() && steps[i].kind == PartStep::Kind::Arc; }
@@ -42,8 +44,8 @@ struct RandomPart {
   }
 };
 
-inline RandomPart random_part(support::Random& random, int count) {
-  RandomPart part;
+inline RandomPart random_part(support::Random& random, int count, bool is_five_axis = false) {
+  RandomPart part{.is_five_axis = is_five_axis};
   part.steps.push_back({.kind = PartStep::Kind::Rapid, .to = {10'000, 20'000, 30'000}});
   std::array<int, 3> at = part.steps[0].to;
   for (int i = 0; i < count; ++i) {
@@ -56,7 +58,7 @@ inline RandomPart random_part(support::Random& random, int count) {
     } else if (kind == 1) {
       step.kind = PartStep::Kind::Function;
       step.number = random.between(100, 105);
-    } else if (kind < 5) {
+    } else if (kind < 5 && !is_five_axis) {
       // A quarter or half of a circle, whose points are exact in micrometers.
       step.kind = PartStep::Kind::Arc;
       step.is_counterclockwise = random.one_in(2);
@@ -69,6 +71,8 @@ inline RandomPart random_part(support::Random& random, int count) {
     } else {
       step.kind = kind < 7 ? PartStep::Kind::Rapid : PartStep::Kind::Line;
       for (int& each : step.to) each = 2 * random.between(-100'000, 100'000);
+      if (is_five_axis)
+        for (int& each : step.turn) each = 2 * random.between(-20'000, 20'000);
     }
     if (step.is_motion()) at = step.to;
     part.steps.push_back(step);
@@ -100,6 +104,8 @@ class PartWriter {
     line(fmt::format("M06 T{}", part.tool));
     line(fmt::format("S{} M03", part.speed));
     if (style_.is_in_inches) line("G70");
+    if (part.is_five_axis) line("G49");
+    is_five_axis_ = part.is_five_axis;
     if (style_.is_incremental) line("G91");
     for (const PartStep& step : part.steps) {
       written_.lines.push_back(count_);
@@ -111,6 +117,7 @@ class PartWriter {
 
  private:
   using Point = std::array<double, 3>;  // mm
+  using Turn = std::array<double, 2>;   // B and C, degrees.
 
   void line(const std::string& text) {
     if (style_.is_numbered) written_.text += fmt::format("N{} ", 10 * (count_ + 1));
@@ -128,11 +135,14 @@ class PartWriter {
     return fmt::format(" {}{}", letter, number(style_.is_incremental ? value - from : value));
   }
 
-  void go(const std::string& g, const Point& to, const std::string& after) {
+  void go(const std::string& g, const Point& to, const Turn& turn, const std::string& after) {
     std::string text = g;
     for (std::size_t i = 0; i < 3; ++i) text += word("XYZ"[i], to[i], at_[i]);
+    for (std::size_t i = 0; is_five_axis_ && i < 2; ++i)
+      text += fmt::format(" {}{:.4f}", "BC"[i], style_.is_incremental ? turn[i] - turn_[i] : turn[i]);
     line(text + after);
     at_ = to;
+    turn_ = turn;
   }
 
   void write(const PartStep& step) {
@@ -149,12 +159,14 @@ class PartWriter {
         const bool is_rapid = step.kind == PartStep::Kind::Rapid;
         const std::string after = is_rapid ? "" : " F" + feed(step.feed);
         const std::string g = is_rapid ? "G00" : "G01";
-        if (style_.is_split) {
+        const Turn turn{step.turn[0] / 1000.0, step.turn[1] / 1000.0};
+        // The tip of a rapid that turns B or C does not go straight.
+        if (style_.is_split && !(is_rapid && is_five_axis_)) {
           Point middle = at_;
           for (std::size_t i = 0; i < 3; ++i) middle[i] = (at_[i] + to[i]) / 2;
-          go(g, middle, after);
+          go(g, middle, {(turn_[0] + turn[0]) / 2, (turn_[1] + turn[1]) / 2}, after);
         }
-        return go(g, to, after);
+        return go(g, to, turn, after);
       }
     }
   }
@@ -167,7 +179,7 @@ class PartWriter {
     if (style_.chords > 0) return chords(step, to, u, v, radius, is_quarter);
     const std::string center =
         style_.by_radius && is_quarter ? " R" + number(radius) : word('I', u, at_[0]) + word('J', v, at_[1]);
-    go(step.is_counterclockwise ? "G03" : "G02", to, center + " F" + feed(step.feed));
+    go(step.is_counterclockwise ? "G03" : "G02", to, {}, center + " F" + feed(step.feed));
   }
 
   void chords(const PartStep& step, const Point& to, double u, double v, double radius, bool is_quarter) {
@@ -176,16 +188,18 @@ class PartWriter {
     for (int i = 1; i < style_.chords; ++i) {
       const double part = static_cast<double>(i) / style_.chords;
       const double angle = std::acos(-1.0) + sweep * part;  // The center lies in +X of the start.
-      go("G01", {u + radius * std::cos(angle), v + radius * std::sin(angle), z + part * (to[2] - z)},
+      go("G01", {u + radius * std::cos(angle), v + radius * std::sin(angle), z + part * (to[2] - z)}, {},
          " F" + feed(step.feed));
     }
-    go("G01", to, " F" + feed(step.feed));
+    go("G01", to, {}, " F" + feed(step.feed));
   }
 
   WritingStyle style_;
   WrittenPart written_;
   std::size_t count_ = 0;
   Point at_{};
+  Turn turn_{};
+  bool is_five_axis_ = false;
 };
 
 inline WrittenPart written(const RandomPart& part, const WritingStyle& style = {}) {
