@@ -207,7 +207,8 @@ class ChangeNamer {
   void compare_feeds(std::size_t i, std::size_t k) {
     const MachineAction& left = a(i);
     const MachineAction& right = b(k);
-    if (options_.ignores_feed || !left.is_motion() || !right.is_motion()) return;
+    if (!left.is_motion() || !right.is_motion()) return;
+    if (options_.ignores_feed && left.is_rapid == right.is_rapid) return;
     if (is_same_feed(left, right)) {
       if (!left.is_rapid) close_feed();
       return;
@@ -223,7 +224,6 @@ class ChangeNamer {
   }
 
   void compare_feeds_along(const AlignedPiece& piece) {
-    if (options_.ignores_feed) return;
     for (PlaceInBoth place{piece.a_begin, piece.b_begin}; place.a < piece.a_end;) {
       overlaps_.clear();
       const auto next =

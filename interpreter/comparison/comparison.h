@@ -59,8 +59,8 @@ struct BehaviorChange {
 };
 
 struct ComparisonOptions {
-  double tolerance = 0.001;  ///< Places this near are the same; mm, and degrees for B and C. Positive.
-  bool ignores_feed = false;
+  double tolerance = 0.001;   ///< Places this near are the same; mm, and degrees for B and C. Positive.
+  bool ignores_feed = false;  ///< But not a rapid instead of a feed move.
   bool ignores_speed = false;
   bool ignores_time = false;  ///< Dwells and exact stops.
 };

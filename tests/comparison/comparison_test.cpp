@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "interpreter/comparison/anchors.h"
 #include "tests/comparison/compared.h"
 
 namespace isocnc::comparison {
@@ -129,6 +133,41 @@ TEST(Comparison, IgnoresWhatIsAskedFor) {
   EXPECT_EQ(
       shown(changes_between(old_program, changed, {.ignores_feed = true, .ignores_speed = true, .ignores_time = true})),
       "");
+}
+
+TEST(Comparison, NeverIgnoresARapidInsteadOfAFeedMove) {
+  EXPECT_EQ(shown(changes_between(kHead + "G01 X50 F500\nX70 F600\nM02\n", kHead + "G00 X50\nG01 X70 F700\nM02\n",
+                                  {.ignores_feed = true})),
+            "feed 4|4: G00 instead of F500\n");
+}
+
+/// The joints of a rapid that turns B go straight, not its tip: the pivot of the head is 180 mm above it.
+TEST(Comparison, ARapidThatTurnsTakesAnotherPath) {
+  const std::vector<BehaviorChange> changes =
+      changes_between(kHead + "G49\nG01 B60 F500 X10\nM02\n", kHead + "G49\nG00 B60 X10\nM02\n");
+  ASSERT_EQ(changes.size(), 2U) << shown(changes);
+  EXPECT_EQ(changes[0].kind, ChangeKind::Shape);
+  // Half of the way the tip is off by 180 mm of what the chord of B from 0 to 60 degrees is off its arc.
+  EXPECT_NEAR(changes[0].distance.value_or(0), 180 * (1 - std::cos(30 * std::acos(-1.0) / 180)), 0.01);
+  EXPECT_EQ(changes[1].new_value, "G00");
+}
+
+/// A vertical stroke occurs many times and is no anchor; the place of each hole is one.
+TEST(Anchors, OccurOnceInEachRun) {
+  std::string program = kHead;
+  for (int hole = 1; hole <= 4; ++hole) program += fmt::format("G00 X{} Y0 Z2\nG01 Z-3 F500\nG00 Z2\n", 20 * hole);
+  const RecordedRun run = recorded(program + "G00 X20 Y0 Z2\nM02\n");
+  const RunPair pair{run, run, 0.001};
+  const Anchors anchors(pair);
+  std::vector<std::size_t> lines;
+  PlaceInBoth place;
+  while (const std::optional<PlaceInBoth> next = anchors.next(place, true)) {
+    EXPECT_EQ(next->a, next->b);
+    lines.push_back(run.actions[next->a].line + 1);
+    place = {next->a + 1, next->b + 1};
+  }
+  // The tool, the first place, the holes' bottoms; the upper place of each hole is reached twice or more.
+  EXPECT_EQ(lines, (std::vector<std::size_t>{1, 3, 5, 8, 11, 14}));
 }
 
 TEST(Comparison, ToleranceDecides) {
