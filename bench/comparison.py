@@ -73,6 +73,8 @@ def measure(options):
             tools = programs / "isodiff", programs / "isorun"
             is_met &= row(*tools, f"`{kind}` and itself", (old, old), options.runs, RATIO)
             is_met &= row(*tools, f"`{kind}`, {EDITS} edits", (old, new), options.runs, RATIO)
+            if kind == "fiveaxis":
+                continue  # In the other order all motions are rapids that turn B and C, and the run itself takes a minute.
             lines = text.split(b"\n")
             new.write_bytes(b"\n".join(lines[:5] + lines[-5:5:-1] + lines[-4:]))
             is_met &= row(*tools, f"`{kind}` from its end to its start", (old, new), options.runs, None)

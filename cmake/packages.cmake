@@ -125,7 +125,8 @@ set(CPACK_PACKAGE_DESCRIPTION
     "Tools for the G-code of a family of Italian five-axis routers: isolint tells
 where the control would stop and why, isofmt writes programs as they should
 be written, isorun runs them on a simulated machine and draws their path,
-isols and isodap are the language server and the debugger of editors.")
+isodiff compares what two of them do there, isols and isodap are the language
+server and the debugger of editors.")
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION devel)
 if(debian_architecture)
