@@ -212,7 +212,7 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
   bool has_findings_ = false;
   std::optional<std::string> file_;
   std::optional<DiagnosticId> code_;
-  std::optional<std::size_t> line_;
+  std::optional<std::uint64_t> line_;
   std::optional<std::uint64_t> count_;
   std::string mistake_;
 };
