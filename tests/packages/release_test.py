@@ -33,6 +33,7 @@ VSIX = {"linux-x64": f"isocnc-linux-x64-{VERSION}.vsix", "linux-arm64": f"isocnc
 OFFLINE = {"linux-x64": f"isocnc-offline-{VERSION}-linux-x64.tar.gz", "linux-arm64": f"isocnc-offline-{VERSION}-linux-arm64.tar.gz",
            "windows-x64": f"isocnc-offline-{VERSION}-windows-x64.zip"}  # fmt: skip
 MODULE = ("web", "universal")  # Those that hold the programs as a module.
+EXPLORER_SCRIPTS = ("add-to-explorer.cmd", "remove-from-explorer.cmd")
 NPM = f"isocnc-{VERSION}.tgz"
 SITE = f"isocnc-site-{VERSION}.zip"
 EMULATORS = {"linux-x64": [], "linux-arm64": ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"], "windows-x64": ["wine64", "wine"]}
@@ -91,7 +92,11 @@ class Release(unittest.TestCase):
 
     def test_programs_are_those_of_their_platform(self) -> None:
         for platform, name, files in self.those(PROGRAMS_OF) + self.those(DEBIAN) + self.those(VSIX):
-            programs = {Path(file).name: platform_of_program(data) for file, data in files.items() if "/bin/" in file}
+            in_bin = {Path(file).name: data for file, data in files.items() if "/bin/" in file}
+            if name == PROGRAMS_OF["windows-x64"]:
+                for script in EXPLORER_SCRIPTS:
+                    self.assertTrue(in_bin.pop(script, b"").startswith(b"@echo off"), script)
+            programs = {file: platform_of_program(data) for file, data in in_bin.items()}
             ending = ".exe" if platform == "windows-x64" else ""
             expected = {} if platform in MODULE else {program + ending: platform for program in PROGRAMS}
             self.assertEqual(programs, expected, name)
