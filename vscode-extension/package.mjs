@@ -25,7 +25,7 @@ const ending = platform.startsWith('win32-') ? '.exe' : '';
 const strips = { 'win32-x64': 'x86_64-w64-mingw32-strip', 'linux-arm64': process.arch === 'arm64' ? 'strip' : 'aarch64-linux-gnu-strip' };
 
 /** The debugger comes where it has been built. */
-const needed = ['isols', 'isolint', 'isorun', 'isofmt'];
+const needed = ['isols', 'isolint', 'isorun', 'isofmt', 'isodiff'];
 const optional = ['isodap'];
 
 function stageProgram(name) {

@@ -35,12 +35,12 @@ execFileSync(join(here, 'node_modules/.bin/tsc'), ['--noEmit', 'false', '--emitD
 cpSync(join(target, 'types/index.d.ts'), join(target, 'dist/index.d.ts'));
 rmSync(join(target, 'types'), { recursive: true });
 
-for (const program of ['isolint', 'isofmt', 'isorun']) {
+const json = JSON.parse(readFileSync(join(here, 'package.json'), 'utf8'));
+for (const program of Object.keys(json.bin)) {
   const file = join(target, 'bin', `${program}.js`);
   writeFileSync(file, `#!/usr/bin/env node\nimport { main } from '../dist/command.js';\nawait main('${program}');\n`);
   chmodSync(file, 0o755);
 }
-const json = JSON.parse(readFileSync(join(here, 'package.json'), 'utf8'));
 for (const key of ['scripts', 'devDependencies']) delete json[key];
 writeFileSync(join(target, 'package.json'), `${JSON.stringify({ name: json.name, version, ...json }, null, 2)}\n`);
 cpSync(join(root, 'LICENSE'), join(target, 'LICENSE'));

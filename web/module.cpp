@@ -19,6 +19,7 @@
 int isolint_main(int argc, char** argv);
 int isofmt_main(int argc, char** argv);
 int isorun_main(int argc, char** argv);
+int isodiff_main(int argc, char** argv);
 
 namespace isocnc::web {
 namespace {
@@ -43,11 +44,12 @@ rpc::MakePeer maker_of(std::string_view server, std::string_view language) {
 
 extern "C" {
 
-/// Runs `isolint`, `isofmt` or `isorun`, whose name is the first argument. Returns the exit status.
+/// Runs the command whose name is the first argument: `isolint`, `isofmt`, `isorun` or `isodiff`. Returns the exit status.
 EMSCRIPTEN_KEEPALIVE int isocnc_run(int argc, char** argv) {
   const std::string_view program = argv[0];
   if (program == "isolint") return isolint_main(argc, argv);
   if (program == "isofmt") return isofmt_main(argc, argv);
+  if (program == "isodiff") return isodiff_main(argc, argv);
   return isorun_main(argc, argv);
 }
 

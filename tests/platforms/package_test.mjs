@@ -12,7 +12,7 @@ import { gzipSync } from 'node:zlib';
 
 const [native, made] = process.argv.slice(2).map((folder) => resolve(folder));
 const examples = fileURLToPath(new URL('../../examples', import.meta.url));
-const { check, format, run, CommandError } = await import(pathToFileURL(join(made, 'dist/index.js')).href);
+const { check, diff, format, run, CommandError } = await import(pathToFileURL(join(made, 'dist/index.js')).href);
 const broken = readFileSync(join(examples, 'broken/pocket.iso'), 'utf8');
 const pocket = readFileSync(join(examples, 'pocket.iso'), 'utf8');
 const folder = mkdtempSync(join(tmpdir(), 'isocnc-npm-'));
@@ -53,6 +53,18 @@ test('run() tells what isorun tells', async () => {
   const lines = printed('isorun', ['--no-config', '--trace', '-'], pocket).trimEnd().split('\n');
   assert.deepEqual(trace, lines.map((line) => JSON.parse(line)));
   assert.equal((await run(broken)).result, 'error');
+});
+
+test('diff() tells what isodiff tells', async () => {
+  writeFileSync(join(folder, 'new.iso'), broken);
+  writeFileSync(join(folder, 'old.iso'), pocket);
+  const args = ['--no-config', '--format', 'json', '--lang', 'it', join(folder, 'old.iso'), join(folder, 'new.iso')];
+  const differing = spawnSync(join(native, 'isodiff'), args, { encoding: 'utf8' });
+  assert.equal(differing.status, 1);
+  assert.deepEqual(await diff(pocket, broken, { language: 'it' }), JSON.parse(differing.stdout));
+  assert.deepEqual(await diff(pocket, await format(pocket), { args: ['--ignore', 'comments'] }).then(({ same, changes }) => [same, changes]), [true, []]);
+  await assert.rejects(diff(undefined, pocket), TypeError);
+  await assert.rejects(diff(pocket, pocket, { args: ['--tolerance', '-1'] }), (error) => error instanceof CommandError && /--tolerance/.test(error.message));
 });
 
 test('the machine is asked with the setup and the meshes beside the program', async () => {

@@ -26,6 +26,7 @@ COMMANDS = [
     ["isofmt", "--no-config", "--diff", "{files}"],
 ]
 RUN = ["isorun", "--no-config", "--trace", "-", "{file}"]
+COMPARE = ["isodiff", "--no-config", "--format", "json"]
 
 
 def run(programs: pathlib.Path, command: list[str]) -> tuple[int, bytes, bytes]:
@@ -45,7 +46,7 @@ def is_same(here: object, there: object) -> bool:
     return type(here) is type(there) and here == there
 
 
-def is_same_trace(here: bytes, there: bytes) -> bool:
+def is_same_json(here: bytes, there: bytes) -> bool:
     one, other = here.splitlines(), there.splitlines()
     return len(one) == len(other) and all(a == b or is_same(json.loads(a), json.loads(b)) for a, b in zip(one, other))
 
@@ -55,7 +56,7 @@ def differences(native: pathlib.Path, other: pathlib.Path, command: list[str]) -
     here, there = run(native, command), run(other, command)
     if here == there:
         return None
-    if command[0] == "isorun" and (here[0], here[2]) == (there[0], there[2]) and is_same_trace(here[1], there[1]):
+    if command[0] in ("isorun", "isodiff") and (here[0], here[2]) == (there[0], there[2]) and is_same_json(here[1], there[1]):
         return None
     shown = " ".join(command)[:100]
     for name, one, two in zip(("exit status", "standard output", "standard error"), here, there):
@@ -87,6 +88,10 @@ def main() -> int:
     for file in examples + others[:: len(others) // 20]:
         count += 1
         problems.append(differences(native, other, [file if each == "{file}" else each for each in RUN]))
+    # Each example against its twin with a mistake.
+    for twin in (file for file in examples if file.startswith("examples/broken/")):
+        count += 1
+        problems.append(differences(native, other, [*COMPARE, twin.replace("broken/", ""), twin]))
     problems = [problem for problem in problems if problem]
     print("\n".join(problems))
     print(f"{len(files)} programs: {count - len(problems)} passed, {len(problems)} failed")

@@ -53,6 +53,26 @@ export interface Run {
   trace?: Record<string, unknown>[];
 }
 
+/** What is different in what two programs do, as `isodiff --format json` prints it. */
+export interface Change {
+  kind: 'moved' | 'shape' | 'added' | 'removed' | 'reordered' | 'feed' | 'speed' | 'tool' | 'function' | 'frame' | 'dwell' | 'path' | 'end';
+  /** The first and the last line, from 1, of each program that has a part in it. */
+  old: [number, number] | null;
+  new: [number, number] | null;
+  tool: string | null;
+  /** In mm. */
+  distance: number | null;
+  text: string;
+}
+
+export interface Comparison {
+  same: boolean;
+  /** Cycle times in seconds. */
+  old: { time: number };
+  new: { time: number };
+  changes: Change[];
+}
+
 /** What a command says instead of a result: a mistake in the options or the configuration, or a text that is no program. */
 export class CommandError extends Error {
   override readonly name = 'CommandError';
@@ -149,4 +169,12 @@ export async function run(text: string, options: RunOptions = {}): Promise<Run> 
   if (events === undefined) return summary;
   const lines = events.split('\n').filter((line) => line !== '');
   return { ...summary, trace: lines.map((line) => JSON.parse(line) as Record<string, unknown>) };
+}
+
+/** Compares what two programs do on the simulated machine, as `isodiff --format json` tells it. */
+export async function diff(oldText: string, newText: string, options: Options = {}): Promise<Comparison> {
+  if (typeof oldText !== 'string') throw new TypeError('the old program is no text');
+  const old = '.isocnc-old.iso'; // In the folder of the new one: both have its configuration.
+  const [json] = await command('isodiff', newText, { ...options, files: { ...options.files, [old]: oldText } }, ['--format', 'json', old]);
+  return parsed(json, (value): value is Comparison => typeof value === 'object' && value !== null && 'changes' in value);
 }

@@ -1,6 +1,6 @@
 /** The WebAssembly module as Emscripten's loader gives it: what web/module.cpp exports, and the files it sees. */
 
-export type Program = 'isolint' | 'isofmt' | 'isorun';
+export type Program = 'isolint' | 'isofmt' | 'isorun' | 'isodiff';
 export type Server = 'isols' | 'isodap';
 
 /** The files that the module sees: in a page they are in memory. */
