@@ -65,17 +65,27 @@ static void require_tool(const verification::ToolBodies& tool) {
           "a shank ends at the holder");
 }
 
-/// What a file without mistakes describes has bodies. All meshes are one triangle.
+/// What a file without mistakes describes has bodies. All meshes are one triangle, and all stocks one box.
 static void make_scene(const configuration::MachineConfiguration& machine,
                        const std::optional<configuration::LocatedSetup>& setup) {
   static const auto kMesh = std::make_shared<const solids::Mesh>(
       std::vector<solids::Triangle>{{{geometry::Vec3(0, 0, 0), geometry::Vec3(1, 0, 0), geometry::Vec3(0, 1, 0)}}});
-  const verification::Scene scene =
-      configuration::make_scene(machine, setup, [](const configuration::MeshRequest& request) {
-        require(!request.mesh.name.starts_with('/') && !request.mesh.name.starts_with(".."),
-                "a mesh is below its file");
-        return kMesh;
-      });
+  static const auto kStock =
+      std::make_shared<const stock::Stock>(solids::Cuboid{geometry::Vec3(0, 0, 0), geometry::Vec3(3, 2, 1)}, 0.5);
+  const auto require_below = [](const configuration::ShapeRequest& request) {
+    require(!request.shape.name.starts_with('/') && !request.shape.name.starts_with(".."), "a shape is below its file");
+  };
+  const configuration::ShapeSource shapes{.mesh =
+                                              [&](const configuration::ShapeRequest& request) {
+                                                require_below(request);
+                                                return kMesh;
+                                              },
+                                          .stock =
+                                              [&](const configuration::ShapeRequest& request) {
+                                                require_below(request);
+                                                return kStock;
+                                              }};
+  const verification::Scene scene = configuration::make_scene(machine, setup, shapes);
   require(scene.machine.size() == machine.bodies.size(), "each body of the machine is there");
   for (const verification::SceneBody& body : scene.machine) require_body(body);
   for (const verification::SceneBody& body : scene.setup) require_body(body);
