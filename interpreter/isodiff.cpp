@@ -22,6 +22,7 @@
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/system/user_language.h"
+#include "interpreter/text/lists.h"
 
 namespace isocnc::interpreter {
 namespace {
@@ -65,18 +66,6 @@ void complain(std::string_view what) { command_line::complain("isodiff", what); 
 
 bool is_standard_input(const std::string& file) { return file == "-" || file == "/dev/stdin"; }
 
-/// The elements of lists that are separated by commas.
-std::vector<std::string> elements_of(const std::vector<std::string>& lists) {
-  std::vector<std::string> elements;
-  for (const std::string& list : lists)
-    for (std::size_t begin = 0; begin <= list.size();) {
-      const std::size_t comma = std::min(list.find(',', begin), list.size());
-      elements.push_back(list.substr(begin, comma - begin));
-      begin = comma + 1;
-    }
-  return elements;
-}
-
 /// None after an error message.
 std::optional<comparison::ComparisonOptions> read_comparison_options(const DiffCommandOptions& options) {
   const Language language = options.reader_language();
@@ -87,18 +76,19 @@ std::optional<comparison::ComparisonOptions> read_comparison_options(const DiffC
     return std::nullopt;
   }
   read.tolerance = *tolerance;
-  for (const std::string& ignored : elements_of(options.ignored)) {
-    if (ignored == "feed") {
-      read.ignores_feed = true;
-    } else if (ignored == "speed") {
-      read.ignores_speed = true;
-    } else if (ignored == "time") {
-      read.ignores_time = true;
-    } else if (ignored != "comments") {  // Comments never count.
-      complain(dialect::format(kWrongIgnored, language, ignored));
-      return std::nullopt;
+  for (const std::string& list : options.ignored)
+    for (const std::string_view ignored : text::split_at_commas(list)) {
+      if (ignored == "feed") {
+        read.ignores_feed = true;
+      } else if (ignored == "speed") {
+        read.ignores_speed = true;
+      } else if (ignored == "time") {
+        read.ignores_time = true;
+      } else if (ignored != "comments") {  // Comments never count.
+        complain(dialect::format(kWrongIgnored, language, ignored));
+        return std::nullopt;
+      }
     }
-  }
   return read;
 }
 

@@ -30,6 +30,7 @@
 #include "interpreter/system/source_file.h"
 #include "interpreter/system/terminal.h"
 #include "interpreter/system/user_language.h"
+#include "interpreter/text/lists.h"
 #include "interpreter/text/unicode.h"
 #include "interpreter/verification/verification_report.h"
 
@@ -139,13 +140,10 @@ std::optional<running::RunOptions> read_run_options(const RunCommandOptions& opt
 /// The rectangle in `X0,Y0,X1,Y1`.
 std::optional<stock::Window> read_window(std::string_view text) {
   std::vector<double> numbers;
-  for (bool is_last = false; !is_last;) {
-    const std::size_t comma = text.find(',');
-    is_last = comma == std::string_view::npos;
-    const std::optional<double> number = read_decimal(text.substr(0, comma));
+  for (const std::string_view side : text::split_at_commas(text)) {
+    const std::optional<double> number = read_decimal(side);
     if (!number) return std::nullopt;
     numbers.push_back(*number);
-    if (!is_last) text.remove_prefix(comma + 1);
   }
   if (numbers.size() != 4 || !(numbers[0] < numbers[2]) || !(numbers[1] < numbers[3])) return std::nullopt;
   return stock::Window(geometry::Vec2(numbers[0], numbers[1]), geometry::Vec2(numbers[2], numbers[3]));
@@ -436,8 +434,8 @@ plot::PlotSubject plot_subject(std::string_view program, const configuration::Ma
 bool can_cut(const RunCommandOptions& options, const RunOutputs& outputs) {
   if (options.stock_out.empty() && !options.resolution && !options.window) return true;
   std::optional<removal::Workpiece> workpiece;
-  const verification::MaterialOptions material{.resolution = outputs.material.resolution,
-                                               .window = outputs.material.window};
+  verification::MaterialOptions material = outputs.material;
+  material.is_cut = true;
   if (outputs.subject.scene) workpiece = verification::workpiece_of(*outputs.subject.scene, {}, material);
   const Language language = options.reader_language();
   if (!workpiece) {

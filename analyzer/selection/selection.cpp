@@ -9,6 +9,7 @@
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/near_names.h"
 #include "interpreter/text/characters.h"
+#include "interpreter/text/lists.h"
 
 namespace isocnc::selection {
 
@@ -28,12 +29,8 @@ struct SeverityOverride {
 static std::vector<std::string_view> words_of(const std::vector<std::string>& lists) {
   std::vector<std::string_view> words;
   for (const std::string_view list : lists)
-    for (std::size_t at = 0; at <= list.size();) {
-      const std::size_t comma = std::min(list.find(',', at), list.size());
-      const std::string_view word = text::trimmed(list.substr(at, comma - at));
-      if (!word.empty()) words.push_back(word);
-      at = comma + 1;
-    }
+    for (const std::string_view element : text::split_at_commas(list))
+      if (const std::string_view word = text::trimmed(element); !word.empty()) words.push_back(word);
   return words;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interpreter/dialect/format.h"
+#include "interpreter/simulation/summary.h"
 
 namespace isocnc::comparison {
 
@@ -71,17 +72,6 @@ std::string trimmed(double number) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
   return text == "-0" ? "0" : text;
-}
-
-/// `1 h 02 min 03.4 s`, `2 min 03.4 s`, `3.4 s`.
-std::string shown_seconds(double seconds) {
-  const double tenths = std::round(seconds * 10);
-  const double minutes = std::floor(tenths / 600);
-  const double hours = std::floor(minutes / 60);
-  const double rest = (tenths - minutes * 600) / 10;
-  if (hours > 0) return fmt::format("{:.0f} h {:02.0f} min {:04.1f} s", hours, minutes - hours * 60, rest);
-  if (minutes > 0) return fmt::format("{:.0f} min {:04.1f} s", minutes, rest);
-  return fmt::format("{:.1f} s", rest);
 }
 
 /// The vector as programs write it: `X10 Z-0.5`; what rounds to 0 is left out.
@@ -177,8 +167,8 @@ std::string totals_in_words(const ComparedRuns& runs, Language language) {
   const RecordedRun& new_run = runs.new_run;
   std::string text;
   if (std::abs(new_run.seconds - old_run.seconds) >= kShownSeconds)
-    text += dialect::format(kCycleTime, language, shown_seconds(new_run.seconds), shown_seconds(old_run.seconds),
-                            new_run.seconds - old_run.seconds);
+    text += dialect::format(kCycleTime, language, simulation::shown_time(new_run.seconds),
+                            simulation::shown_time(old_run.seconds), new_run.seconds - old_run.seconds);
   if (std::abs(new_run.feed_mm - old_run.feed_mm) >= kShownMm)
     text += dialect::format(kFeedLength, language, trimmed(new_run.feed_mm), trimmed(old_run.feed_mm));
   if (std::abs(new_run.rapid_mm - old_run.rapid_mm) >= kShownMm)

@@ -31,6 +31,9 @@ struct ToolShare {
   double rapid_mm = 0;
 };
 
+/// `1 h 02 min 03.4 s`, `2 min 03.4 s`, `3.4 s`: the same in both languages.
+std::string shown_time(double seconds);
+
 /// A joint that would leave its travel.
 struct TravelBreach {
   std::size_t line = 0;  ///< Line of the first breach, from 0.

@@ -15,8 +15,7 @@ using dialect::Text;
 using execution::State;
 using OrderedJson = nlohmann::ordered_json;
 
-/// `1 h 02 min 03.4 s`, `2 min 03.4 s`, `3.4 s`: the same in both languages.
-static std::string shown_time(double seconds) {
+std::string shown_time(double seconds) {
   const double tenths = std::round(seconds * 10);
   const double minutes = std::floor(tenths / 600);
   const double hours = std::floor(minutes / 60);
