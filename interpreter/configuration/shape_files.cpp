@@ -1,5 +1,6 @@
 #include "interpreter/configuration/shape_files.h"
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -51,22 +52,29 @@ static Mistake mistake_of(const StlProblem& problem, const std::string& name) {
   return mistake(mistakes::kMeshEmpty, name);
 }
 
-static Mistake mistake_of(const system::FileBytesProblem& problem, const std::string& name) {
+/// The texts of a kind of file for what hinders reading it.
+struct ReadingTexts {
+  const Text& too_large;
+  const Text& unreadable;
+};
+
+static Mistake mistake_of(const system::FileBytesProblem& problem, const std::string& name, const ReadingTexts& texts) {
   using Kind = system::FileBytesProblem::Kind;
   switch (problem.kind) {
     case Kind::NotRegular:
       return mistake(mistakes::kNotThisKind, name);
     case Kind::TooLarge:
-      return mistake(mistakes::kMeshTooLarge, name, fmt::format("{} MiB", kLargestMesh >> 20));
+      return mistake(texts.too_large, name, fmt::format("{} MiB", kLargestMesh >> 20));
     case Kind::Unreadable:
       break;
   }
-  return mistake(mistakes::kFileProblem, name, problem.message);
+  return mistake(texts.unreadable, name, problem.message);
 }
 
 ShapeFiles::MeshOrMistake ShapeFiles::read_mesh(const fs::path& file, const std::string& name) const {
   const auto bytes = system::read_bytes(file, kLargestMesh, language_);
-  if (const auto* const problem = std::get_if<system::FileBytesProblem>(&bytes)) return mistake_of(*problem, name);
+  if (const auto* const problem = std::get_if<system::FileBytesProblem>(&bytes))
+    return mistake_of(*problem, name, {mistakes::kMeshTooLarge, mistakes::kFileProblem});
   auto triangles = solids::read_stl(std::get<std::string>(bytes));
   if (const auto* const problem = std::get_if<StlProblem>(&triangles)) return mistake_of(*problem, name);
   auto mesh = std::make_shared<const Mesh>(std::get<std::vector<Triangle>>(std::move(triangles)));
@@ -84,18 +92,22 @@ static std::optional<fs::path> file_below(const fs::path& folder, const std::str
   return below.empty() || *below.begin() == ".." ? std::nullopt : std::optional(file);
 }
 
-const ShapeFiles::MeshOrMistake& ShapeFiles::unshifted(const fs::path& folder, const std::string& name) {
-  const FolderAndName key(folder.generic_string(), name);
-  if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
+/// What a file holds, which is read the first time that it is asked for.
+template <class Loaded>
+static const Loaded& loaded(std::map<std::pair<std::string, std::string>, Loaded>& known, const fs::path& folder,
+                            const std::string& name, const std::function<Loaded(const fs::path& file)>& read) {
+  const auto [place, is_new] = known.try_emplace({folder.generic_string(), name});
+  if (!is_new) return place->second;
   const std::optional<fs::path> file = file_below(folder, name);
-  return meshes_[key] = file ? read_mesh(*file, name) : mistake(mistakes::kOutsideFolder, name);
+  return place->second = file ? read(*file) : mistake(mistakes::kOutsideFolder, name);
 }
 
 ShapeFiles::MeshOrMistake ShapeFiles::mesh(const fs::path& folder, const std::string& name,
                                            const std::optional<geometry::Vec3>& shift) {
-  const MeshOrMistake& loaded = unshifted(folder, name);
-  const auto* const mesh = std::get_if<std::shared_ptr<const Mesh>>(&loaded);
-  if (mesh == nullptr || !shift || shift->isZero(0)) return loaded;
+  const MeshOrMistake& unshifted =
+      loaded<MeshOrMistake>(meshes_, folder, name, [&](const fs::path& file) { return read_mesh(file, name); });
+  const auto* const mesh = std::get_if<std::shared_ptr<const Mesh>>(&unshifted);
+  if (mesh == nullptr || !shift || shift->isZero(0)) return unshifted;
   const std::tuple key(folder.generic_string(), name, shift->x(), shift->y(), shift->z());
   if (const auto known = shifted_.find(key); known != shifted_.end()) return known->second;
   const solids::BoundingBox box = (*mesh)->bounds().translated(*shift);
@@ -109,12 +121,8 @@ ShapeFiles::MeshOrMistake ShapeFiles::mesh(const fs::path& folder, const std::st
 
 ShapeFiles::StockOrMistake ShapeFiles::read_stock(const fs::path& file, const std::string& name) const {
   const auto bytes = system::read_bytes(file, kLargestMesh, language_);
-  if (const auto* const problem = std::get_if<system::FileBytesProblem>(&bytes)) {
-    using Kind = system::FileBytesProblem::Kind;
-    if (problem->kind == Kind::NotRegular) return mistake(mistakes::kNotThisKind, name);
-    if (problem->kind == Kind::TooLarge) return mistake(mistakes::kStockTooLarge, name);
-    return mistake(mistakes::kStockUnreadable, name, problem->message);
-  }
+  if (const auto* const problem = std::get_if<system::FileBytesProblem>(&bytes))
+    return mistake_of(*problem, name, {mistakes::kStockTooLarge, mistakes::kStockUnreadable});
   auto read = stock::read_stock(std::get<std::string>(bytes));
   if (auto* const left = std::get_if<stock::Stock>(&read))
     return std::make_shared<const stock::Stock>(std::move(*left));
@@ -136,10 +144,7 @@ ShapeFiles::StockOrMistake ShapeFiles::read_stock(const fs::path& file, const st
 }
 
 ShapeFiles::StockOrMistake ShapeFiles::stock(const fs::path& folder, const std::string& name) {
-  const FolderAndName key(folder.generic_string(), name);
-  if (const auto known = stocks_.find(key); known != stocks_.end()) return known->second;
-  const std::optional<fs::path> file = file_below(folder, name);
-  return stocks_[key] = file ? read_stock(*file, name) : mistake(mistakes::kOutsideFolder, name);
+  return loaded<StockOrMistake>(stocks_, folder, name, [&](const fs::path& file) { return read_stock(file, name); });
 }
 
 }  // namespace isocnc::configuration

@@ -43,7 +43,6 @@ class ShapeFiles {
  private:
   using FolderAndName = std::pair<std::string, std::string>;
 
-  const MeshOrMistake& unshifted(const std::filesystem::path& folder, const std::string& name);
   MeshOrMistake read_mesh(const std::filesystem::path& file, const std::string& name) const;
   StockOrMistake read_stock(const std::filesystem::path& file, const std::string& name) const;
 
