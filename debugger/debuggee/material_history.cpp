@@ -105,6 +105,16 @@ void MaterialHistory::feed(MaterialCheck& check, const BlockRecord& record, doub
   if (until == kToTheEnd) take_events(true);
 }
 
+/// A copy that is cut up to a moment within the next block, and has forgotten what was before the block.
+MaterialCheck MaterialHistory::cut_until(const BlockState& from, const BlockRecord& record, double time) const {
+  MaterialCheck check = from.check;
+  check.stop_asking();
+  check.forget_past();
+  feed(check, record, time);
+  check.settle();
+  return check;
+}
+
 /// Cuts blocks, some of them at once: the tiles are gone through once for all of them.
 class MaterialHistory::BlockCutting {
  public:
@@ -217,9 +227,7 @@ MaterialHistory::StatePointer MaterialHistory::before(std::uint64_t block) {
   };
   debuggee_.pass_blocks(start == begin_ ? std::nullopt : std::optional(start->block), block, pass_block, pass_by_hand);
   finish();
-  keep(moving);
-  latest_.push_back(moving);
-  if (latest_.size() > kLatest) latest_.pop_front();
+  remember(moving);
   return moving;
 }
 
@@ -252,6 +260,13 @@ void MaterialHistory::keep(const StatePointer& state) {
     const bool is_first_farther = state->block - nearby_.begin()->first > nearby_.rbegin()->first - state->block;
     nearby_.erase(is_first_farther ? nearby_.begin() : std::prev(nearby_.end()));
   }
+}
+
+/// Keeps the answer to a question.
+void MaterialHistory::remember(const StatePointer& state) {
+  keep(state);
+  latest_.push_back(state);
+  if (latest_.size() > kLatest) latest_.pop_front();
 }
 
 std::size_t MaterialHistory::bytes_of(const Copies& copies) {
@@ -311,11 +326,7 @@ const MaterialHistory::CutMoment& MaterialHistory::moment_of(const Simulation& s
     return *moment_;
   StatePointer state = before(block);
   if (is_in_block) {
-    const auto within = std::make_shared<BlockState>(*state);
-    within->check.stop_asking();
-    within->check.forget_past();
-    feed(within->check, record(block), time);
-    within->check.settle();
+    const auto within = std::make_shared<BlockState>(BlockState{.check = cut_until(*state, record(block), time)});
     within->last = removed_so_far(within->check);
     state = within;
   }
@@ -363,10 +374,7 @@ std::vector<MaterialHistory::InCutPiece> MaterialHistory::in_cut_pieces(const Bl
                                                                         double until) const {
   constexpr double kMaxPieces = 4096;
   const MotionRun run = run_around(record, piece);
-  MaterialCheck check = from.check;
-  check.stop_asking();
-  feed(check, record, record.pieces[run.begin].start());
-  check.settle();
+  MaterialCheck check = cut_until(from, record, record.pieces[run.begin].start());
   const double spacing = check.stock().spacing();
   const double count = std::clamp(std::floor(run.length / spacing + 1e-9), 1.0, kMaxPieces);
   const auto begin_of = [&](std::size_t number) { return run.length * (static_cast<double>(number) / count); };
@@ -414,15 +422,12 @@ MaterialHistory::BlockAnswers MaterialHistory::examine(const BlockRecord& record
   find_crossings(record, *from, *to, questions, answers);
   record_ = record;
   if (debuggee_.is_run_by_hand_at(to->block)) return answers;
-  keep(to);
-  latest_.push_back(to);
-  if (latest_.size() > kLatest) latest_.pop_front();
+  remember(to);
   return answers;
 }
 
 static bool is_error(const Incident& incident) {
-  return incident.kind == IncidentKind::RapidInMaterial || incident.kind == IncidentKind::BodyInMaterial ||
-         incident.kind == IncidentKind::SpindleStopped;
+  return dialect::definition(verification::diagnostic_of(incident.kind)).severity == dialect::Severity::Error;
 }
 
 static bool is_same(const Incident& a, const Incident& b) {
@@ -489,12 +494,7 @@ std::vector<double> MaterialHistory::removed_crossings(const SurroundingsLimit& 
   if (!limit.is_beyond(from.last.volume) && limit.is_beyond(0)) return {record.start};
   if (limit.is_beyond(0) || !limit.is_beyond(to.last.volume)) return {};
   const auto is_beyond_at = [&](double time) {
-    MaterialCheck check = from.check;
-    check.stop_asking();
-    check.forget_past();
-    feed(check, record, time);
-    check.settle();
-    return limit.is_beyond(removed_so_far(check).volume);
+    return limit.is_beyond(removed_so_far(cut_until(from, record, time)).volume);
   };
   double before = record.start;
   double after = record.end;

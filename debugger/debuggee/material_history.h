@@ -104,7 +104,9 @@ class MaterialHistory {
   StatePointer nearest(std::uint64_t block) const;
   void apply(BlockState& state, const BlockRecord& record) const;
   void feed(removal::MaterialCheck& check, const BlockRecord& record, double until) const;
+  removal::MaterialCheck cut_until(const BlockState& from, const BlockRecord& record, double time) const;
   void keep(const StatePointer& state);
+  void remember(const StatePointer& state);
   static std::size_t bytes_of(const Copies& copies);
   void thin_out(Copies& copies, std::size_t limit, double& spacing) const;
   const BlockRecord& record(std::uint64_t block);

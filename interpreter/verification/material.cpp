@@ -87,7 +87,7 @@ removal::CuttingTool cutting_tool(const Scene& scene, const MountedTool& tool) {
   return cutting;
 }
 
-static dialect::DiagnosticId finding_about(IncidentKind kind) {
+dialect::DiagnosticId diagnostic_of(IncidentKind kind) {
   switch (kind) {
     case IncidentKind::RapidInMaterial:
       return "rapid-in-material"_diag;
@@ -125,7 +125,7 @@ static PartKind kind_of(ToolPart part) {
 }
 
 Contact contact_of(const removal::Incident& incident, const Scene& scene) {
-  Contact contact{.id = finding_about(incident.kind),
+  Contact contact{.id = diagnostic_of(incident.kind),
                   .line = incident.line,
                   .end_line = incident.end_line,
                   .time = incident.time,

@@ -31,6 +31,9 @@ std::optional<double> coarser_spacing(const removal::Workpiece& workpiece);
 /// The bodies of a mounted tool, for cutting. The result refers to the scene.
 removal::CuttingTool cutting_tool(const Scene& scene, const MountedTool& tool);
 
+/// What an incident is reported as.
+dialect::DiagnosticId diagnostic_of(removal::IncidentKind kind);
+
 /// An incident with the material as a contact.
 Contact contact_of(const removal::Incident& incident, const Scene& scene);
 
