@@ -242,10 +242,12 @@ TEST_P(SeededFaults, AreFoundAndNothingElse) {
                       .scene = *scene,
                       .machine = configuration.machine.timed};
   int found = 0;
-  for (const Case& each : mutants_of(original)) {
+  for (Case& each : mutants_of(original)) {
     running::RunOptions options;
     options.setup.home = each.machine.home;
-    // The material of the mutants is not asked about: this is about hard bodies.
+    // The material and the finished part of the mutants are not asked about: this is about hard bodies.
+    if (each.what != "original")
+      std::erase_if(each.scene.setup, [](const SceneBody& body) { return body.role == BodyRole::Target; });
     const VerifiedRun run = verified_run(each.program, options, each.machine, &each.scene, {},
                                          {.is_cut = each.what == "original", .resolution = {}, .max_dexels = {}});
     std::set<std::string> told;
@@ -253,10 +255,7 @@ TEST_P(SeededFaults, AreFoundAndNothingElse) {
       if (!contact.is_near_miss() && !contact.is_of_material) told.emplace(contact.whom.in(dialect::Language::English));
     const Sampled sampled(each);
     for (const std::string& name : sampled.hit()) EXPECT_TRUE(told.contains(name)) << each.what << ": " << name;
-    for (const std::string& name : told) {
-      if (name == "the finished part") continue;
-      EXPECT_TRUE(sampled.near().contains(name)) << each.what << ": " << name;
-    }
+    for (const std::string& name : told) EXPECT_TRUE(sampled.near().contains(name)) << each.what << ": " << name;
     if (each.what == "original") {
       EXPECT_TRUE(told.empty()) << *told.begin();
       EXPECT_TRUE(std::all_of(run.contacts.begin(), run.contacts.end(),
