@@ -521,6 +521,9 @@ static std::optional<Objection> objection_to(const DescribedStock& stock) {
   shapes.emplace_back("from", stock.from.has_value());
   if (auto objection = objection_to(shapes, mistakes::kOneBlank)) return objection;
   if (stock.from) return std::nullopt;
+  if (const auto& box = stock.shape.box)
+    for (std::size_t i = 0; i < 3; ++i)
+      if ((*box)[0][i] == (*box)[1][i]) return Objection{.member = "box", .text = mistakes::kFlatBlank};
   if (stock.is_turned_over) return Objection{.member = "turnedOver", .text = mistakes::kOnlyWithFrom};
   if (stock.quarter_turns) return Objection{.member = "quarterTurns", .text = mistakes::kOnlyWithFrom};
   return std::nullopt;

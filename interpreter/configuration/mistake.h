@@ -184,6 +184,8 @@ inline constexpr dialect::Text kMeshOpen = {
     "{0} è aperta, quindi non racchiude nulla: {1} spigoli senza un secondo triangolo"};
 inline constexpr dialect::Text kMeshFlat = {"{0} encloses nothing: its triangles have no volume between them",
                                             "{0} non racchiude nulla: fra i suoi triangoli non c'è volume"};
+inline constexpr dialect::Text kFlatBlank = {"a blank has a volume: its two corners differ in X, Y and Z",
+                                             "un grezzo ha un volume: i suoi due spigoli sono diversi in X, Y e Z"};
 inline constexpr dialect::Text kMeshHuge = {"{0} has more triangles than any mesh",
                                             "{0} ha troppi triangoli per una mesh"};
 inline constexpr dialect::Text kOneBlank = {"one of box, cylinder, mesh and from is needed",

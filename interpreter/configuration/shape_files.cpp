@@ -82,7 +82,11 @@ ShapeFiles::MeshOrMistake ShapeFiles::read_mesh(const fs::path& file, const std:
   const solids::MeshTopology& topology = mesh->topology();
   if (topology.open_edges > 0) return mistake(mistakes::kMeshOpen, name, fmt::format("{}", topology.open_edges));
   if (!topology.is_closed()) return mistake(mistakes::kMeshFlat, name);
-  return mesh;
+  if (topology.faces_outwards()) return mesh;
+  // All triangles face inwards, as after mirroring in a CAD system: the solid is the same.
+  std::vector<Triangle> turned(mesh->triangles().begin(), mesh->triangles().end());
+  for (Triangle& triangle : turned) std::swap(triangle.corners[1], triangle.corners[2]);
+  return std::make_shared<const Mesh>(std::move(turned));
 }
 
 /// The file of a name; none if it is outside the folder.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -233,6 +234,25 @@ TEST_F(SceneFiles, FindMeshesFromTheFileThatNamesThem) {
   EXPECT_EQ(bounds_of(found->setup[1]), "0 0 0 to 5 5 5");
 }
 
+/// As a CAD system writes a mirrored part: each triangle the other way round.
+TEST_F(SceneFiles, TurnMeshesRightSideOut) {
+  const std::string outwards = tetrahedron();
+  std::string inwards = outwards;
+  for (std::size_t triangle = 0; triangle < 4; ++triangle) {
+    const std::size_t second = 84 + 50 * triangle + 24;  // After the header, the normal and the first corner.
+    std::swap_ranges(inwards.begin() + static_cast<std::ptrdiff_t>(second),
+                     inwards.begin() + static_cast<std::ptrdiff_t>(second + 12),
+                     inwards.begin() + static_cast<std::ptrdiff_t>(second + 12));
+  }
+  write("in.stl", inwards);
+  write("isocnc.json", R"({"machine": {"bodies": [{"name": "m", "mesh": "in.stl"}]}})");
+  const auto found = scene("p.iso");
+  ASSERT_NE(found, nullptr) << mistakes();
+  const auto& mesh = std::get<std::shared_ptr<const solids::Mesh>>(found->machine[0].shape);
+  EXPECT_TRUE(mesh->topology().faces_outwards());
+  EXPECT_NEAR(mesh->topology().volume, 1000. / 6, 1e-6);
+}
+
 TEST_F(SceneFiles, ReadEachMeshOnce) {
   write("a.stl", tetrahedron());
   write("isocnc.json", R"({"setups": [{"paths": ["*"], "fixtures": [
@@ -380,7 +400,8 @@ TEST_F(SceneFiles, ReportMistakesInTheFileBesideTheProgram) {
   write("d.setup.json", "\xEF\xBB\xBF{}");
   write("e.setup.json", std::string(kLongestFile + 1, ' '));
   write("f.setup.json", "{\"spoilboard\": {\"top\": 0, \"allow\": \"\xFF\"}}");
-  for (const char* const program : {"a.iso", "b.iso", "c.iso", "d.iso", "e.iso", "f.iso", "a.iso"})
+  write("g.setup.json", R"({"stock": {"box": [[0, 0, 0], [200, 0, 20]]}})");
+  for (const char* const program : {"a.iso", "b.iso", "c.iso", "d.iso", "e.iso", "f.iso", "g.iso", "a.iso"})
     EXPECT_EQ(scene(program), nullptr) << program;
   EXPECT_EQ(mistakes(),
             "./a.setup.json:1:2: error: paths: unknown key\n"
@@ -390,7 +411,8 @@ TEST_F(SceneFiles, ReportMistakesInTheFileBesideTheProgram) {
             "./c.setup.json:1:15: error: } is out of place here\n"
             "./d.setup.json:1:1: error: a byte-order mark stands here; save the file as UTF-8 without it\n"
             "./e.setup.json: error: larger than any configuration\n"
-            "./f.setup.json:1:37: error: this is not UTF-8; save the file as UTF-8");
+            "./f.setup.json:1:37: error: this is not UTF-8; save the file as UTF-8\n"
+            "./g.setup.json:1:19: error: stock.box: a blank has a volume: its two corners differ in X, Y and Z");
   EXPECT_THAT(mistakes(Language::Italian), HasSubstr("./a.setup.json:2:1: errore: clearanc: chiave sconosciuta"));
 }
 
