@@ -107,6 +107,11 @@ constexpr Text kWrongWindow{"--window takes two corners in mm, the lower one fir
                             "--window vuole due spigoli in mm, prima quello inferiore, come 0,0,250,250, non {}"};
 constexpr Text kEmptyWindow{"in the window {} there is nothing of the stock, which reaches from X{} Y{} to X{} Y{}",
                             "nella finestra {} non c'è nulla del grezzo, che va da X{} Y{} a X{} Y{}"};
+constexpr Text kPartOfAStock{
+    "{}: with --window only a part of the blank is cut, and a later setup would take it for all of it; write an .stl, "
+    "or leave --window out",
+    "{}: con --window si taglia solo una parte del grezzo, e un attrezzaggio successivo la prenderebbe per tutto; "
+    "scrivere un .stl, o togliere --window"};
 constexpr Text kTooFine{
     "a resolution of {} mm takes more memory than there is for the stock; {:.2g} mm would fit",
     "una risoluzione di {} mm occupa più memoria di quella prevista per il grezzo; con {:.2g} mm ci "
@@ -174,6 +179,7 @@ std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   if (options.window) {
     outputs.material.window = read_window(*options.window);
     if (!outputs.material.window) return refuse(kWrongWindow, *options.window, options);
+    if (options.stock_out.ends_with(".stock")) return refuse(kPartOfAStock, options.stock_out, options);
   }
   // Cutting takes longer than the rest, and nothing else shows it.
   outputs.material.is_cut = options.verify || !options.stock_out.empty() || format == plot::PlotFormat::Html;

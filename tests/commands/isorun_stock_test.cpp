@@ -201,6 +201,8 @@ TEST_F(StockOfRuns, RefusesWindowsAndResolutionsThatAreNone) {
   EXPECT_THAT(said_of({"--verify", "--resolution", "0.000001"}), HasSubstr("mm would fit"));
   EXPECT_THAT(said_of({"--verify", "--resolution", "0"}), HasSubstr("--resolution takes a plain number of mm above 0"));
   EXPECT_THAT(said_of({"--stock-out", "left.obj"}), HasSubstr("ends in .stl or .stock"));
+  EXPECT_THAT(said_of({"--verify", "--window", "0,0,10,10", "--stock-out", "part.stock"}),
+              HasSubstr("part.stock: with --window only a part of the blank is cut"));
   folder_.write("first.setup.json", "{}");
   EXPECT_THAT(said_of({"--verify", "--window", "0,0,10,10"}), HasSubstr("--window takes a setup with a stock"));
 }
