@@ -44,7 +44,8 @@ rpc::MakePeer maker_of(std::string_view server, std::string_view language) {
 
 extern "C" {
 
-/// Runs the command whose name is the first argument: `isolint`, `isofmt`, `isorun` or `isodiff`. Returns the exit status.
+/// Runs the command whose name is the first argument: `isolint`, `isofmt`, `isorun` or `isodiff`. Returns the exit
+/// status.
 EMSCRIPTEN_KEEPALIVE int isocnc_run(int argc, char** argv) {
   const std::string_view program = argv[0];
   if (program == "isolint") return isolint_main(argc, argv);
