@@ -1388,16 +1388,24 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                        "start; Z{enough} would have been enough",
                  .it = "{who} attraversa il materiale in rapido: {depth} mm di profondità in X{x} Y{y} Z{z}, {time} s "
                        "dopo l'avvio; bastava Z{enough}"},
+     .causes = {{.cause = "at-any-height",
+                 .message = {.en = "{who} goes through material in rapid: {depth} mm deep at X{x} Y{y} Z{z}, {time} s "
+                                   "after the start",
+                             .it = "{who} attraversa il materiale in rapido: {depth} mm di profondità in X{x} Y{y} "
+                                   "Z{z}, {time} s dopo l'avvio"},
+                 .wrong = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z30 F1000\n[!G00 X380!]\nZ50\nM05\nM02\n"}},
      .explanation =
          {.en = "In rapid the machine goes as fast as it can, and the cutter meets what is left of the blank. Rapids "
                 "are not straight where the axes need different times: what counts is the path that the machine really "
                 "takes. Go higher, or go in feed. The Z in the message is the lowest, up to 0.1 mm, at which this "
-                "motion meets nothing. If the way is free at the machine, the stock in isocnc.json is larger than the "
-                "blank or stands elsewhere, or something was cut before that this program does not cut.",
+                "motion meets nothing; where a tool is mounted, and on the way out of a cut, no Z helps. If the way is "
+                "free at the machine, the stock in isocnc.json is larger than the blank or stands elsewhere, or "
+                "something was cut before that this program does not cut.",
           .it = "In rapido la macchina va alla massima velocità, e la fresa incontra ciò che resta del grezzo. I "
                 "rapidi non sono rettilinei quando gli assi impiegano tempi diversi: conta il percorso che la macchina "
                 "compie davvero. Passare più in alto, o in lavoro. La Z del messaggio è la più bassa, a 0.1 mm, con "
-                "cui questo movimento non incontra nulla. Se alla macchina la strada è libera, il grezzo (stock) in "
+                "cui questo movimento non incontra nulla; dove si monta un utensile e uscendo da una passata nessuna Z "
+                "aiuta. Se alla macchina la strada è libera, il grezzo (stock) in "
                 "isocnc.json è più grande di quello vero o sta altrove, oppure qualcosa è già stato tagliato fuori da "
                 "questo programma."},
      .wrong = "M06 T101001\nS12000 M03\nG00 X250 Y150 Z50\nZ5\n[!X500!]\nZ50\nM05\nM02\n",
@@ -1413,6 +1421,12 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                        "Z{enough} would have been enough",
                  .it = "{who} è nel materiale: {depth} mm di profondità in X{x} Y{y} Z{z}, {time} s dopo l'avvio; "
                        "bastava Z{enough}"},
+     .causes = {{.cause = "at-any-height",
+                 .message = {.en = "{who} is in the material: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the "
+                                   "start",
+                             .it = "{who} è nel materiale: {depth} mm di profondità in X{x} Y{y} Z{z}, {time} s dopo "
+                                   "l'avvio"},
+                 .wrong = "M06 T101004\nS12000 M03\nG00 X288 Y150 Z50\nZ-25\nM05\n[!M06 T101001!]\nG00 Z50\nM02\n"}},
      .explanation =
          {.en = "What does not cut meets what is left of the blank: the shank, the holder or the spindle nose. The "
                 "message names the deepest place, and the Z at which this motion would have met nothing. Go less deep, "

@@ -42,7 +42,10 @@ struct Incident {
   double limit = 0;                               ///< EdgeTooShort, CutTooDeep: the depth that the tool allows, mm.
   geometry::Vec3 point = geometry::Vec3::Zero();  ///< Where it is worst; machine frame of the program, mm.
   geometry::Frame frame;                          ///< In force there; in the machine frame.
-  std::optional<double> enough;                   ///< The Z, in that frame, with which nothing would have been met; mm.
+  /// The Z, in that frame, with which nothing would have been met, mm; none where another Z is no help.
+  std::optional<double> enough;
+  /// RapidInMaterial: a shank, holder or nose was there already when the rapid began, so that all of this goes with it.
+  bool follows_body = false;
   std::optional<std::size_t> shaped_by;  ///< The line that has cut last where it happens, or has stopped the spindle.
 };
 

@@ -32,7 +32,13 @@ static constexpr double kMaxMomentsApart = 10;
 
 /// What a cut may leave standing beside its body, mm: a tenth of the spacing by the pieces of curved paths, and a
 /// little for rounding.
-static double skin_of(double spacing) { return spacing / 8 + 0.002; }
+static double rim_of(double spacing) { return spacing / 8 + 0.002; }
+
+/// What a cut may leave of what its program says, mm: at a rounded corner as much more as the corner strays, be it at
+/// the end of a slot or at the bottom of a hole. Later motions come as near as the program says.
+static double skin_of(double spacing, const simulation::TimedMachine& machine) {
+  return rim_of(spacing) + machine.motion.corner_tolerance;
+}
 
 MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine& machine, stock::Workers workers)
     : workpiece_(std::move(workpiece)),
@@ -40,9 +46,10 @@ MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine
       workers_(std::move(workers)),
       stock_(workpiece_.blank, workpiece_.spacing, workpiece_.window),
       blank_volume_(stock_.volume()),
-      skin_(skin_of(stock_.spacing())) {}
+      skin_(skin_of(stock_.spacing(), machine)) {}
 
-void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& tool) {
+void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& tool, std::size_t line, double time,
+                          const geometry::Frame& frame) {
   cut_waiting();
   close_all();
   if (!by_line_.empty()) look_for_loose_pieces();
@@ -50,6 +57,26 @@ void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& to
   tool_.reset();
   // A wall of a cut is known to within a spacing.
   forms_.emplace(tool, skin_, stock_.spacing(), workpiece_.clearance);
+  stand(line, time, frame);
+}
+
+/// Compares the mounted tool where it stands.
+void MaterialCheck::stand(std::size_t line, double time, const geometry::Frame& frame) {
+  // Without its length, nothing on the spindle is at its place.
+  const double length = forms_->tool().length;
+  if (!last_path_ || !(length > 0)) return;
+  const kinematics::Kinematics& kinematics = machine_.motion.kinematics;
+  const kinematics::Coordinates joints = last_path_->joints_at(kinematics, last_place_).value;
+  motion::Stretch rest{.start = time, .phase_count = 1};
+  rest.path.is_of_joints = true;
+  rest.path.c[0] = joints;
+  rest.path.tool_length = length;
+  const solids::AxisPlacement at = placement_of(kinematics, kinematics::forward(kinematics, joints, length));
+  last_frame_ = frame;
+  frames_ = {frame};  // Nothing waits.
+  waiting_.push_back({.stretch = rest, .line = line, .frame = 0, .is_standing = true});
+  pieces_ = {{stock::StraightPath{at, at.origin}, 0, 0}};
+  append_pieces(false);
 }
 
 void MaterialCheck::take(const simulation::TimedEvent& event) {
@@ -69,6 +96,8 @@ void MaterialCheck::take(const motion::Stretch& stretch, const simulation::Timed
 
 void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::TimedEvent& event,
                               const geometry::Frame& frame, double from, double to) {
+  last_path_ = stretch.path;
+  last_place_ = to;
   if (!forms_ || !event.move) return;
   const bool is_feed = event.move->feed.kind != kinematics::FeedKind::Rapid;
   last_frame_ = frame;
@@ -76,12 +105,21 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::
   waiting_.push_back({.stretch = stretch, .line = event.event.line, .frame = frames_.size() - 1, .is_feed = is_feed});
   divide(stretch, from, to);
   if (watcher_) show_moments(stretch);
+  append_pieces(is_feed);
+  if (waiting_.size() == kBatch) cut_waiting();
+}
+
+/// Adds the sweeps along the pieces to what waits, as those of its last stretch.
+void MaterialCheck::append_pieces(bool is_feed) {
+  if (pieces_.empty()) return;
+  UncutStretch& stretch = waiting_.back();
+  const Vec3 up = frames_[stretch.frame].axes.col(2);
+  stretch.rise = up.dot(end_of(pieces_.back().path) - start_of(pieces_.front().path).origin);
   for (TipPath& piece : pieces_) {
-    waiting_.back().length += length_of(piece.path);
+    stretch.length += length_of(piece.path);
     piece.path = moved(std::move(piece.path), -workpiece_.origin);
     append_sweeps(piece, is_feed);
   }
-  if (waiting_.size() == kBatch) cut_waiting();
 }
 
 /// Sets the pieces of a stretch between two path parameters. A long tool needs many of them while its axis turns, but
@@ -222,7 +260,10 @@ void MaterialCheck::cut_waiting() {
       if (uses_[i].role == Role::Cut && outcomes[i].meets()) has_cut[uses_[i].stretch] = true;
       if (outcomes[i].meets()) look_at(i, outcomes[i]);
     }
+    note_heights(has_cut);
     look_closely(before);
+  } else {
+    note_heights(has_cut);
   }
   has_cuts_to_show_ = has_cuts_to_show_ || std::find(has_cut.begin(), has_cut.end(), true) != has_cut.end();
   note_ways(has_cut);
@@ -248,13 +289,16 @@ static double length_across_axis(const SweepPath& path) {
   return length_of(path);
 }
 
+/// Whether a tool lies flatter than 45 degrees.
+static bool is_lying(const Vec3& axis) { return std::abs(axis.z()) < std::sqrt(0.5); }
+
 /// How a cut is, of what it has removed. The dexels measure the depth of a cut from above. Where the tool lies flatter,
 /// they measure across it, which is the width, and the depth follows from the volume.
 static Removed removed_by(const SweepOutcome& outcome, const SweepPath& path, double diameter) {
   Removed removed{.volume = outcome.volume, .depth = outcome.depth};
   const double length = length_across_axis(path);
   const double steepness = std::abs(axis_of(path).z());
-  if (steepness >= std::sqrt(0.5)) {
+  if (!is_lying(axis_of(path))) {
     removed.width = width_of_cut(outcome.volume, outcome.depth, length, diameter);
     return removed;
   }
@@ -297,7 +341,7 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
 void MaterialCheck::look_at(std::size_t sweep, const SweepOutcome& outcome) {
   switch (uses_[sweep].role) {
     case Role::Cut:
-      if (outcome.depth > forms_->tool().max_depth + skin_)
+      if (outcome.depth > forms_->tool().max_depth + rim_of(stock_.spacing()))
         touch({IncidentKind::CutTooDeep, ToolPart::Cutter}, sweep, outcome);
       break;
     case Role::RapidCutter:
@@ -333,6 +377,7 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
                             .line = stretch.line,
                             .time = stretch.stretch.time_at(use.from),
                             .tool = code_},
+               .begins_in_feed = stretch.is_feed,
                .first_sweep = sweep};
     if (key.first == IncidentKind::SpindleStopped) episode.incident.shaped_by = spindle_stopped_by_;
   }
@@ -340,8 +385,12 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   episode.last_stretch = number;
   incident.end_line = stretch.line;
   incident.end_time = stretch.stretch.time_at(use.to);
-  if (goes_on && !(outcome.depth > episode.deepest)) return;
-  episode.deepest = outcome.depth;
+  // Dexels do not measure along a tool that lies: there, how far it goes does.
+  const SweepPath& path = sweeps_[sweep].path;
+  const Vec3 axis = axis_of(path);
+  const double deep = is_lying(axis) ? -lowest_along(path, axis) : outcome.depth;
+  if (goes_on && !(deep > episode.deepest)) return;
+  episode.deepest = deep;
   incident.amount = outcome.depth;
   incident.point = in_machine(outcome.point);
   incident.frame = frames_[stretch.frame];
@@ -367,6 +416,34 @@ void MaterialCheck::end_way() {
   // A way outside the window may have met something.
   if (way_ && way_->amount > workpiece_.longest_air_cut && !workpiece_.window) keep(*way_);
   way_.reset();
+}
+
+static bool is_rounded_corner(const kinematics::Path& path) {
+  return path.kind == kinematics::PathKind::Polynomial && !(path.c[2].isZero(0) && path.c[3].isZero(0));
+}
+
+/// Which stretches begin at a height to which a cut in feed has led.
+void MaterialCheck::note_heights(const std::vector<bool>& has_cut) {
+  constexpr double kLevel = 0.01;  // mm
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    UncutStretch& each = waiting_[i];
+    each.is_from_cut = is_at_cut_;
+    if (each.is_standing || (each.is_feed && has_cut[i])) {
+      is_at_cut_ = true;
+    } else if (std::abs(each.rise) > kLevel && !is_rounded_corner(each.stretch.path)) {
+      is_at_cut_ = false;
+    }
+  }
+}
+
+/// Whether a higher Z would have kept a stretch out of the material: not where the tool is mounted, not on the way out
+/// of the material, and not from the place where a cut has ended: its depth is what the workpiece needs.
+bool MaterialCheck::does_height_help(const UncutStretch& stretch) {
+  if (stretch.is_standing) return false;
+  if (stretch.is_feed) return true;
+  const bool leads_down = stretch.rise < -0.01 && !is_rounded_corner(stretch.stretch.path);
+  const bool leads_out = stretch.rise > 0.7 * stretch.length && stretch.length > 0;
+  return !leads_out && (leads_down || !stretch.is_from_cut);
 }
 
 /// Goes through the batch once more, up to the sweeps in question: each is compared with the stock as it was then.
@@ -450,6 +527,21 @@ void MaterialCheck::find_first_touch(OpenIncident& episode, const Stock& before)
   episode.incident.time = stretch.time_at(touching);
 }
 
+/// Whether shank, holder and nose were already, at the start of a path, in all that the cutter meets on it.
+bool MaterialCheck::has_body_been_there(const Stock& before, const SweepUse& use, const SweepPath& path) const {
+  Stock without = before;
+  const solids::AxisPlacement start = start_of(path);
+  bool is_in = false;
+  for (const auto& [part, role] : {std::pair(ToolPart::Shank, Role::Shank), std::pair(ToolPart::Holder, Role::Holder),
+                                   std::pair(ToolPart::Nose, Role::Nose)}) {
+    const RevolvedBody* const body = whole_body(part);
+    if (!body) continue;
+    const Sweep sweep{.body = body, .path = placed(stock::StraightPath{start, start.origin}, role)};
+    is_in = without.apply({&sweep, 1}).front().meets() || is_in;
+  }
+  return is_in && !ask(without, *forms_->passing_cutter(), placed(path, use.role)).meets();
+}
+
 /// The height by which a path must be raised so that a body meets nothing; none if that does not help.
 static std::optional<double> enough_rise(const Stock& stock, const RevolvedBody& body, const SweepPath& path,
                                          const Vec3& up) {
@@ -483,6 +575,8 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
     case IncidentKind::BodyInMaterial: {
       // The whole body meets more than what counts of it.
       const SweepOutcome whole = ask(before, *whole_body(incident.part), path);
+      if (incident.kind == IncidentKind::RapidInMaterial)
+        incident.follows_body = has_body_been_there(before, use, path);
       incident.amount = whole.depth;
       incident.point = in_machine(whole.point);
       break;
@@ -490,6 +584,9 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
     case IncidentKind::EdgeTooShort: {
       const double edge = forms_->tool().cutter->top();
       incident.limit = edge;
+      // The dexels do not measure along a tool that lies.
+      const Vec3 axis = axis_of(path);
+      if (is_lying(axis)) incident.amount = enough_rise(before, *sweeps_[index].body, path, axis).value_or(0);
       incident.amount += edge;
       break;
     }
@@ -516,12 +613,13 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   incident.level = lowest + up.dot(workpiece_.origin - incident.frame.origin);
   const bool is_hit = incident.kind == IncidentKind::RapidInMaterial || incident.kind == IncidentKind::BodyInMaterial;
   if (!is_hit) return;
-  incident.enough.reset();
   const std::optional<double> rise = enough_rise(before, *sweeps_[index].body, path, up);
+  incident.enough.reset();
   if (!rise) return;
   // The dexels do not measure along a tool that lies, and the material ends up to half a spacing beside them.
   const double aside = stock_.spacing() / 2 * (1 - std::abs(up.z()));
-  if (std::abs(up.z()) < std::sqrt(0.5)) incident.amount = *rise + skin_ + aside;
+  if (is_lying(up)) incident.amount = *rise + skin_ + aside;
+  if (!episode.begins_in_feed && !does_height_help(waiting_[use.stretch])) return;
   incident.enough = std::ceil((incident.level + *rise + skin_ + aside - 0.01) * 10) / 10 + 0.0;  // No -0.
 }
 
@@ -553,19 +651,23 @@ void MaterialCheck::keep(Incident incident) {
 static bool is_said_by(const Incident& each, const Incident& other) {
   const bool is_meanwhile = each.tool == other.tool && each.time <= other.end_time && other.time <= each.end_time;
   if (!is_meanwhile) return false;
+  // What a rapid meets later does not say what has begun before it.
+  const bool is_begun_by_rapid = other.kind == IncidentKind::RapidInMaterial && !other.follows_body &&
+                                 (other.time <= each.time || other.line == each.line);
   switch (each.kind) {
     case IncidentKind::NearMaterial:
       return other.kind == IncidentKind::BodyInMaterial || other.kind == IncidentKind::RapidInMaterial ||
              (other.kind == IncidentKind::NearMaterial && other.part < each.part);
     case IncidentKind::EdgeTooShort:
-      return other.kind == IncidentKind::BodyInMaterial || other.kind == IncidentKind::RapidInMaterial ||
-             other.kind == IncidentKind::CutTooDeep;
+      return other.kind == IncidentKind::BodyInMaterial || other.kind == IncidentKind::CutTooDeep || is_begun_by_rapid;
+    case IncidentKind::RapidInMaterial:
+      return each.follows_body && other.kind == IncidentKind::BodyInMaterial && other.time <= each.time;
     case IncidentKind::BodyInMaterial:
-      return other.kind == IncidentKind::RapidInMaterial ||
+      return is_begun_by_rapid ||
              (other.kind == IncidentKind::BodyInMaterial &&
               (other.amount > each.amount || (other.amount == each.amount && other.part < each.part)));
     case IncidentKind::CutTooDeep:
-      return other.kind == IncidentKind::RapidInMaterial;
+      return is_begun_by_rapid;
     default:
       return false;
   }

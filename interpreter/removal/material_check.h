@@ -29,8 +29,10 @@ class MaterialCheck {
   /// From now on, `watcher` sees the stock, also within motions. What is found stays the same.
   void watch(Watcher watcher) { watcher_ = std::move(watcher); }
 
-  /// Another tool is mounted.
-  void mount(const execution::ToolCode& code, const CuttingTool& tool);
+  /// Another tool is mounted, by a line, at a time, s, with a frame in force. What it is in where it is mounted is
+  /// found there.
+  void mount(const execution::ToolCode& code, const CuttingTool& tool, std::size_t line, double time,
+             const geometry::Frame& frame);
   /// Takes a stretch of motion, with its event and the frame in force.
   void take(const motion::Stretch& stretch, const simulation::TimedEvent& event, const geometry::Frame& frame);
   /// Takes the part of a stretch from one path parameter to another.
@@ -66,7 +68,7 @@ class MaterialCheck {
   /// After finish(): lines that removed something, in the order of the run.
   const std::vector<RemovedByLine>& removed_by_line() const { return by_line_; }
   const stock::Stock& stock() const { return stock_; }  ///< In the frame of the setup.
-  /// How much thinner bodies count than they are, all around, mm: what a cut may leave beside its body.
+  /// How much thinner bodies count than they are, all around, mm: what a cut may leave of what its program says.
   double skin() const { return skin_; }
   double blank_volume() const { return blank_volume_; }
   const Workpiece& workpiece() const { return workpiece_; }
@@ -91,7 +93,10 @@ class MaterialCheck {
     std::size_t line = 0;
     std::size_t frame = 0;  ///< Index of the frame in force.
     bool is_feed = false;
-    double length = 0;  ///< Of the tip's path, mm.
+    bool is_standing = false;  ///< A tool where it is mounted.
+    double length = 0;         ///< Of the tip's path, mm.
+    double rise = 0;           ///< From its start to its end, along Z of the frame, mm.
+    bool is_from_cut = false;  ///< A cut in feed has led to the height of its start. Known once it has been cut.
   };
 
   /// A sweep's purpose, beside the sweep.
@@ -105,7 +110,8 @@ class MaterialCheck {
   /// An incident that may go on.
   struct OpenIncident {
     Incident incident;
-    std::size_t last_stretch = 0;              ///< Counted from the start of the run.
+    std::size_t last_stretch = 0;  ///< Counted from the start of the run.
+    bool begins_in_feed = false;
     double deepest = 0;                        ///< Of the sweeps that have been compared, mm.
     std::optional<std::size_t> first_sweep;    ///< Of the present batch, where it begins there.
     std::optional<std::size_t> deepest_sweep;  ///< Of the present batch, where it is worst there.
@@ -113,6 +119,8 @@ class MaterialCheck {
   };
   using IncidentKey = std::pair<IncidentKind, ToolPart>;
 
+  void stand(std::size_t line, double time, const geometry::Frame& frame);
+  void append_pieces(bool is_feed);
   void show_moments(const motion::Stretch& stretch);
   void append_sweeps(const TipPath& piece, bool is_feed);
   void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role);
@@ -122,6 +130,9 @@ class MaterialCheck {
   void account(std::size_t sweep, const stock::SweepOutcome& outcome);
   void look_at(std::size_t sweep, const stock::SweepOutcome& outcome);
   void touch(const IncidentKey& key, std::size_t sweep, const stock::SweepOutcome& outcome);
+  void note_heights(const std::vector<bool>& has_cut);
+  static bool does_height_help(const UncutStretch& stretch);
+  bool has_body_been_there(const stock::Stock& before, const SweepUse& use, const stock::SweepPath& path) const;
   void note_ways(const std::vector<bool>& has_cut);
   void end_way();
   void look_closely(stock::Stock before);
@@ -151,6 +162,9 @@ class MaterialCheck {
   std::size_t last_line_ = 0;  ///< Of the events.
   double last_time_ = 0;
   geometry::Frame last_frame_;
+  std::optional<kinematics::Path> last_path_;  ///< Of the last stretch.
+  double last_place_ = 0;                      ///< Path parameter to which it has come.
+  bool is_at_cut_ = false;                     ///< A cut in feed has led to the present height.
   std::vector<geometry::Frame> frames_;
   std::vector<UncutStretch> waiting_;
   std::vector<stock::Sweep> sweeps_;

@@ -40,10 +40,7 @@ class TipCourse {
     const kinematics::Coordinates value = path_.at(s).value;
     const kinematics::Coordinates tip =
         path_.is_of_joints ? kinematics::forward(kinematics_, value, path_.tool_length) : value;
-    const bool is_upright = kinematics_.kind == MachineKind::ThreeAxis;
-    return {tip.head<3>(), is_upright
-                               ? Vec3(0, 0, 1)
-                               : Vec3(geometry::axes_from_angles(tip[kinematics::kB], tip[kinematics::kC]).col(2))};
+    return placement_of(kinematics_, tip);
   }
 
   bool is_straight() const {
@@ -183,6 +180,25 @@ Vec3 axis_of(const stock::SweepPath& path) {
   if (const auto* const turning = std::get_if<stock::TurningPath>(&path)) return turning->from.axis;
   const auto* const straight = std::get_if<stock::StraightPath>(&path);
   return straight ? straight->from.axis : std::get<stock::HelixPath>(path).axis;
+}
+
+AxisPlacement start_of(const stock::SweepPath& path) {
+  if (const auto* const turning = std::get_if<stock::TurningPath>(&path)) return turning->from;
+  if (const auto* const straight = std::get_if<stock::StraightPath>(&path)) return straight->from;
+  const stock::HelixPath& helix = std::get<stock::HelixPath>(path);
+  return {helix.helix.center + helix.helix.out, helix.axis};
+}
+
+Vec3 end_of(const stock::SweepPath& path) {
+  if (const auto* const turning = std::get_if<stock::TurningPath>(&path)) return turning->to.origin;
+  if (const auto* const straight = std::get_if<stock::StraightPath>(&path)) return straight->to;
+  const geometry::Helix& helix = std::get<stock::HelixPath>(path).helix;
+  return helix.center + helix.cosine * helix.out + helix.sine * helix.side + helix.rise;
+}
+
+AxisPlacement placement_of(const Kinematics& kinematics, const kinematics::Coordinates& tip) {
+  if (kinematics.kind == MachineKind::ThreeAxis) return {tip.head<3>(), Vec3(0, 0, 1)};
+  return {tip.head<3>(), geometry::axes_from_angles(tip[kinematics::kB], tip[kinematics::kC]).col(2)};
 }
 
 double length_of(const stock::SweepPath& path) {

@@ -30,6 +30,15 @@ stock::SweepPath moved(stock::SweepPath path, const geometry::Vec3& shift);
 /// The direction of the tool's axis at the start of a path.
 geometry::Vec3 axis_of(const stock::SweepPath& path);
 
+/// How the tool stands at the start of a path.
+solids::AxisPlacement start_of(const stock::SweepPath& path);
+
+/// Where a path ends.
+geometry::Vec3 end_of(const stock::SweepPath& path);
+
+/// How the tool stands with its tip at a position: X, Y, Z, B, C.
+solids::AxisPlacement placement_of(const kinematics::Kinematics& kinematics, const kinematics::Coordinates& tip);
+
 /// Length of the path, mm.
 double length_of(const stock::SweepPath& path);
 

@@ -40,7 +40,7 @@ struct Contact {
   bool is_of_edge = false;       ///< W157: because the edge is too short.
   double limit = 0;              ///< W157: how deep the tool may cut, mm.
   std::optional<double> volume;  ///< W156, W161: of what is left or comes free, mm^3.
-  std::optional<double> enough;  ///< E150, E151: the Z, in `frame`, with which nothing would have been met; mm.
+  std::optional<double> enough;  ///< E150, E151: the Z, in `frame`, with which nothing would have been met, if any; mm.
   /// E150, E151, W154: the line that cut last what is met. E158: that which stopped the spindle. From 0.
   std::optional<std::size_t> shaped_by;
 
@@ -70,10 +70,12 @@ struct Unverified {
 
 /// What has been proven, and what not.
 struct Certificate {
-  std::size_t motions = 0;              ///< Motions of the machine that were examined.
-  std::size_t contacts = 0;             ///< Near misses do not count.
-  double epsilon = 0;                   ///< Nothing nearer than this is unseen, mm.
-  std::optional<double> soft_disc;      ///< No overlap with material that holds a disc of this diameter is unseen, mm.
+  std::size_t motions = 0;          ///< Motions of the machine that were examined.
+  std::size_t contacts = 0;         ///< Near misses do not count.
+  double epsilon = 0;               ///< Nothing nearer than this is unseen, mm.
+  std::optional<double> soft_disc;  ///< Overlaps with material that hold a disc of this diameter are seen, mm,
+  /// where all of the disc is deeper in it than this, mm.
+  std::optional<double> soft_depth;
   std::optional<stock::Window> window;  ///< Outside of it nothing is known of the material; frame of the setup.
   std::string scene;                    ///< The file that describes the setup, or the machine; as shown to users.
   bool has_setup = true;                ///< Whether a setup is for the program.

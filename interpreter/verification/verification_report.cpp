@@ -89,16 +89,16 @@ std::string in_words(const Certificate& certificate, Language language) {
       "verified: {}, {}; nothing nearer than {} mm unseen between the bodies of the machine in {}",
       "verificato: {}, {}; nulla di più vicino di {} mm sfugge tra i corpi della macchina in {}"};
   static constexpr Text kWithMaterial = {
-      "verified: {}, {}; nothing nearer than {} mm unseen, nor wider than {:.2f} mm in the material, in the setup of "
-      "{}",
-      "verificato: {}, {}; nulla di più vicino di {} mm sfugge, né di più largo di {:.2f} mm nel materiale, "
-      "nell'attrezzaggio di {}"};
+      "verified: {}, {}; nothing nearer than {} mm unseen, nor wider than {:.2f} mm and deeper than {:.2f} mm "
+      "in the material, in the setup of {}",
+      "verificato: {}, {}; nulla di più vicino di {} mm sfugge, né di più largo di {:.2f} mm e profondo più di "
+      "{:.2f} mm nel materiale, nell'attrezzaggio di {}"};
   const std::string motions = counted(certificate.motions, {"motion", "movimento"}, {"motions", "movimenti"}, language);
   const std::string contacts =
       counted(certificate.contacts, {"contact", "contatto"}, {"contacts", "contatti"}, language);
   std::string line = certificate.soft_disc
                          ? dialect::format(kWithMaterial, language, motions, contacts, certificate.epsilon,
-                                           *certificate.soft_disc, certificate.scene)
+                                           *certificate.soft_disc, *certificate.soft_depth, certificate.scene)
                          : dialect::format(certificate.has_setup ? kInSetup : kOfMachine, language, motions, contacts,
                                            certificate.epsilon, certificate.scene);
   const std::vector<std::string> gaps = not_verified(certificate, language);
@@ -185,6 +185,7 @@ OrderedJson to_json(const VerifiedRun& verified, Language language) {
   if (verified.material) add(*verified.material, json);
   json["certificate"] = {{"hardEpsilon", certificate.epsilon}};
   if (certificate.soft_disc) json["certificate"]["softDisc"] = *certificate.soft_disc;
+  if (certificate.soft_depth) json["certificate"]["softDepth"] = *certificate.soft_depth;
   json["certificate"]["setup"] = certificate.scene;
   json["certificate"]["notVerified"] = not_verified(certificate, language);
   json["certificate"]["notCompared"] = not_compared(certificate, language);

@@ -21,9 +21,9 @@ std::string in_words(const MaterialReport& material, dialect::Language language)
 
 /// `{"motions", "contacts": [{"code", "line", "endLine", "time", "tool", "body", "obstacle", "point", "depth"}],
 /// "nearMisses": [... "distance" ...], "removedVolume", "remainingVolume", "resolution", "tools": [{"tool", "volume",
-/// "depth", "width", "seconds"}], "certificate": {"hardEpsilon", "softDisc", "setup", "notVerified", "notCompared"}}`:
-/// lines from 1, seconds, mm, mm^3, points in machine coordinates. What is about material is there where the setup
-/// describes a stock. `verified` has a certificate.
+/// "depth", "width", "seconds"}], "certificate": {"hardEpsilon", "softDisc", "softDepth", "setup", "notVerified",
+/// "notCompared"}}`: lines from 1, seconds, mm, mm^3, points in machine coordinates. What is about material is there
+/// where the setup describes a stock. `verified` has a certificate.
 nlohmann::ordered_json to_json(const VerifiedRun& verified, dialect::Language language);
 
 }  // namespace isocnc::verification

@@ -27,7 +27,13 @@ static syntax::Finding finding_about_material(const Contact& contact, const geom
   if (contact.id == "cuts-nothing"_diag) finding.values[0] = std::round(amount);
   if (contact.id == "cut-too-deep"_diag) finding.values[5] = rounded(contact.limit, 0.01);
   if (contact.volume) finding.values[5] = rounded(*contact.volume / 1000, 0.01);
-  if (contact.enough) finding.values[5] = *contact.enough;
+  if (contact.enough) {
+    finding.values[5] = *contact.enough;
+  } else if (contact.id == "rapid-in-material"_diag) {
+    finding.cause = "rapid-in-material/at-any-height"_cause.number;
+  } else if (contact.id == "holder-in-material"_diag) {
+    finding.cause = "holder-in-material/at-any-height"_cause.number;
+  }
   if (contact.is_of_edge) finding.cause = "cut-too-deep/edge-too-short"_cause.number;
   return finding;
 }
@@ -80,6 +86,7 @@ static std::vector<Contact> shown_contacts(const std::vector<Contact>& contacts)
     Contact& first = *firsts.try_emplace(contact.mistake, &contact).first->second;
     if (!(contact.distance < first.distance)) continue;
     // In the frame of the line where the finding stands.
+    first.enough.reset();
     if (contact.enough) {
       const geometry::Vec3 place = contact.frame.to_inner(contact.point);
       first.enough = first.frame.to_inner(contact.frame.to_outer({place.x(), place.y(), *contact.enough})).z();

@@ -42,6 +42,7 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
   constexpr double kDiagonal = 1.4142135623730951;
   if (material_->workpiece().window) certificate_.window = material_->workpiece().window;
   certificate_.soft_disc = kDiagonal * material_->stock().spacing() + 2 * material_->skin();
+  certificate_.soft_depth = material_->skin() + double{stock::Tile::kTouch};
 }
 
 void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
@@ -81,7 +82,7 @@ void Verifier::mount(const execution::ToolCode& tool, std::size_t line, double t
   tool_ = tool;
   const MountedTool mounted = mounted_tool(scene_, machine_, tool);
   bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted, origin_);
-  if (material_) material_->mount(tool, cutting_tool(scene_, mounted));
+  if (material_) material_->mount(tool, cutting_tool(scene_, mounted), line, time, frames_.back());
   // What the tool touches where it is mounted.
   if (last_) {
     stretches_.push_back(rest_after(*last_, machine_.motion.kinematics, mounted.length, time));

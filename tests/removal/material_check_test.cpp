@@ -133,6 +133,60 @@ TEST(Material, HolderOverWhatIsCutAway) {
             Lines());
 }
 
+TEST(Material, AHolderThatPloughsIsToldWhereItBegins) {
+  // The holder goes 5 mm deep into the block; the retract, in rapid, takes the cutter through where it was.
+  const std::string plough = "G00 X350 Y150 Z50\nG01 Z-25 F1000\nX380\n";
+  EXPECT_EQ(told(Bench().cut(plough + "G01 Z50\n")), Lines{"E151 4 5.0 Z-20.0"});
+  EXPECT_EQ(told(Bench().cut(plough + "G00 Z50\n")), Lines{"E151 4 5.0 Z-20.0"});
+  // Farther into the block in rapid, the cutter meets what the holder does not, and Z is that of the cut.
+  EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z-25 F1000\nG00 X360\nZ50\n")),
+            (Lines{"E151 4 5.0 Z-20.0", "E150 5 35.0"}));
+  // Both begin with the same rapid: the cutter's tells all.
+  EXPECT_EQ(told(Bench().cut("G00 X250 Y150 Z50\nZ-25\nX500\nZ50\n")), Lines{"E150 5 35.0 Z40.0"});
+}
+
+TEST(Material, RoundedCornersLeaveLessThanTheProgramSays) {
+  for (const double tolerance : {0.02, 0.05, 0.2}) {
+    Bench bench;
+    bench.scene.resolution = 0.1;
+    bench.machine.motion.corner_tolerance = tolerance;
+    // Out of the end of a slot at an angle, and back to the bottom of a hole.
+    EXPECT_EQ(told(bench.cut("G00 X320 Y130 Z50\nG01 Z34 F1000\nX350 Y150 F8000\nG00 Z50\n")), Lines());
+    EXPECT_EQ(told(bench.cut("G00 X330 Y150 Z50\nG01 Z35 F1000\nG00 Z43\nZ35\nG01 Z30\nG00 Z50\n")), Lines());
+    // A little more is found. The rapid turns back on a corner, too, which begins twice as far above its end.
+    const std::string below = fmt::format("G00 Z43\nZ{:.2f}\nZ50\n", 35 - 0.06 - 3 * tolerance);
+    EXPECT_EQ(told(bench.cut("G00 X330 Y150 Z50\nG01 Z35 F1000\n" + below)).size(), 1u) << tolerance;
+  }
+}
+
+TEST(Material, AToolThatIsMountedInIt) {
+  Bench bench;
+  constexpr execution::ToolCode kLonger{1, 1, 2};
+  bench.scene.tools[kLonger] = bench.scene.tools[Shop::kTool];
+  bench.scene.tools[kLonger].length = bench.machine.tool_lengths[kLonger] = 110;
+  const std::string before = "G00 X350 Y150 Z50\nG01 Z32 F1000\nX370\nM05\n";
+  const std::string after = "S9000 M03\nG01 X380 F1000\nG00 Z50\n";
+  EXPECT_EQ(told(bench.cut(before + "M06 T101002\n" + after)), Lines{"E150 7 10.0"});
+  EXPECT_EQ(told(bench.cut(before + "M06 T101001\n" + after)), Lines());
+  // Beside the block, the longer tool brings its holder lower: not into it. A shorter cutter brings it there.
+  bench.scene.tools[kLonger].length = bench.machine.tool_lengths[kLonger] = 100;
+  bench.scene.tools[kLonger].cutter = Shop::body(solids::flat_body(10, 50));
+  const solids::StackRow holder{.height = 50, .lower_diameter = 50, .upper_diameter = 50};
+  bench.scene.tools[kLonger].holder = Shop::body(solids::stacked_body({&holder, 1}, 50));
+  EXPECT_EQ(told(bench.cut("G00 X280 Y150 Z50\nZ-17\nM05\nM06 T101002\nG00 Z50\n")), Lines{"E151 6 7.0"});
+}
+
+TEST(Material, WhereNoHeightHelpsNoneIsTold) {
+  // Up out of the material with a wider tool above the slot's bottom, and sideways from where a cut has ended.
+  Bench bench;
+  bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::disc_body(10, 4));
+  bench.scene.tools[Shop::kTool].holder.reset();
+  EXPECT_EQ(told(bench.cut("G00 X250 Y150 Z50\nZ20\nG01 X350 F1000\nG00 Z50\n")), Lines{"E150 6 16.0"});
+  EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z30 F1000\nG00 X350\nZ50\n")), Lines{"E150 5 10.0"});
+  // From a height that a rapid has chosen, another one helps.
+  EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z30 F1000\nG00 Z35\nX350\nZ50\n")), Lines{"E150 6 5.0 Z40.0"});
+}
+
 TEST(Material, SpindleStopped) {
   const auto stopped = [](const std::string& program) { return told(Bench().run(program)); };
   EXPECT_EQ(stopped("M06 T101001\nG00 X350 Y150 Z50\nG01 Z35 F1000\nG00 Z50\nM02\n"), Lines{"E158 3 5.0"});
@@ -279,6 +333,21 @@ TEST(Material, ToolsThatLie) {
   // Across the dexels, material is known to within their spacing.
   EXPECT_NEAR(rapid.contacts[0].distance, -10, 0.3);
   EXPECT_NEAR(rapid.contacts[0].enough.value(), 0.2, 0.2);
+}
+
+TEST(Material, AShankThatRubsOnALyingToolToldByItsDepth) {
+  // 25 mm deep into the front face, with an edge of 20 mm.
+  Bench bench(MachineKind::Head);
+  ToolBodies& tool = bench.scene.tools[Shop::kTool];
+  tool.cutter = Shop::body(solids::flat_body(8, 20));
+  const solids::FormPoint points[] = {{20, 8}, {60, 8}};
+  tool.shank = Shop::body(solids::form_body(points));
+  const std::string side = "G00 X350 Y-100 Z20 B0 C0\nB90 C-90\nG29 X300 Y100 Z40 C-90 B90\nG00 X20 Y30 Z50\n";
+  const VerifiedRun run = bench.cut(side + "G01 Z-15 F1000\nZ-25\nG00 Z50\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  EXPECT_TRUE(run.contacts[0].is_of_edge);
+  EXPECT_EQ(run.contacts[0].line + 1, 8u);
+  EXPECT_NEAR(run.contacts[0].distance, -25, 0.5);
 }
 
 TEST(Material, WithoutAToolOrAStockNothingIsCut) {
