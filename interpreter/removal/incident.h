@@ -54,11 +54,17 @@ struct Removed {
   double volume = 0;  ///< mm^3
   double depth = 0;   ///< Greatest depth of cut, along the tool's axis, mm.
   double width = 0;   ///< Greatest width of cut across the motion, mm.
+  /// Whether depth and width are those of what is cut at the sides and the ends of the tool's way alone. Such a cut
+  /// does not count beside another one: rounding leaves skins there, as high as the wall.
+  bool is_at_rim = true;
 
   void add(const Removed& other) {
     volume += other.volume;
-    depth = std::max(depth, other.depth);
-    width = std::max(width, other.width);
+    if (other.is_at_rim && !is_at_rim) return;
+    const bool counts_alone = is_at_rim && !other.is_at_rim;
+    depth = counts_alone ? other.depth : std::max(depth, other.depth);
+    width = counts_alone ? other.width : std::max(width, other.width);
+    is_at_rim = other.is_at_rim;
   }
 };
 

@@ -22,6 +22,9 @@ using stock::SweepPurpose;
 static constexpr std::size_t kBatch = 16'384;
 /// Incidents that are kept.
 static constexpr std::size_t kMaxIncidents = 10'000;
+/// What is cut of a wall counts as a pass of its depth if it is wider than this part of the cutter's radius: what a
+/// finishing pass takes off a stepped wall does not.
+static constexpr double kRimShare = 0.1;
 /// How exactly the first touch is told, as a part of its sweep.
 static constexpr int kHalvings = 16;
 
@@ -115,11 +118,13 @@ void MaterialCheck::append_pieces(bool is_feed) {
   UncutStretch& stretch = waiting_.back();
   const Vec3 up = frames_[stretch.frame].axes.col(2);
   stretch.rise = up.dot(end_of(pieces_.back().path) - start_of(pieces_.front().path).origin);
+  stretch.way = way_taken_;
   for (TipPath& piece : pieces_) {
     stretch.length += length_of(piece.path);
     piece.path = moved(std::move(piece.path), -workpiece_.origin);
     append_sweeps(piece, is_feed);
   }
+  way_taken_ += stretch.length;
 }
 
 /// Sets the pieces of a stretch between two path parameters. A long tool needs many of them while its axis turns, but
@@ -208,8 +213,28 @@ void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece,
   sweeps_.push_back({.body = body,
                      .path = std::move(path),
                      .tag = static_cast<stock::CutTag>(waiting_.back().line),
-                     .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Ask});
+                     .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Ask,
+                     .side_rim = std::max(skin_, body->maximum_radius() * kRimShare),
+                     .end_rim = role == Role::Cut ? end_rim(piece) : 0});
   uses_.push_back({static_cast<std::uint32_t>(waiting_.size() - 1), role, piece.from, piece.to});
+}
+
+static bool is_rounded_corner(const kinematics::Path& path) {
+  return path.kind == kinematics::PathKind::Polynomial && !(path.c[2].isZero(0) && path.c[3].isZero(0));
+}
+
+/// Whether a path bends by more than 10 degrees between two path parameters.
+static bool bends(const kinematics::Path& path, double from, double to) {
+  if (path.kind == kinematics::PathKind::Polynomial && !is_rounded_corner(path)) return false;
+  const Vec3 before = path.at(from).first.head<3>();
+  const Vec3 after = path.at(to).first.head<3>();
+  return before.dot(after) < 0.985 * before.norm() * after.norm();
+}
+
+/// Of a short way in full material only the crescent in front of the body is new: there, half of it counts. But where
+/// the machine turns round a corner, another pass may have gone a little less far.
+double MaterialCheck::end_rim(const TipPath& piece) const {
+  return bends(waiting_.back().stretch.path, piece.from, piece.to) ? skin_ : std::min(skin_, length_of(piece.path) / 2);
 }
 
 /// False only if the body is above the blank all the time, by more than a margin.
@@ -295,11 +320,13 @@ static bool is_lying(const Vec3& axis) { return std::abs(axis.z()) < std::sqrt(0
 /// How a cut is, of what it has removed. The dexels measure the depth of a cut from above. Where the tool lies flatter,
 /// they measure across it, which is the width, and the depth follows from the volume.
 static Removed removed_by(const SweepOutcome& outcome, const SweepPath& path, double diameter) {
-  Removed removed{.volume = outcome.volume, .depth = outcome.depth};
+  const bool is_at_rim = !(outcome.inside_depth > 0);
+  Removed removed{
+      .volume = outcome.volume, .depth = is_at_rim ? outcome.depth : outcome.inside_depth, .is_at_rim = is_at_rim};
   const double length = length_across_axis(path);
   const double steepness = std::abs(axis_of(path).z());
   if (!is_lying(axis_of(path))) {
-    removed.width = width_of_cut(outcome.volume, outcome.depth, length, diameter);
+    removed.width = width_of_cut(outcome.volume, removed.depth, length, diameter);
     return removed;
   }
   removed.depth = 0;
@@ -341,8 +368,12 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
 void MaterialCheck::look_at(std::size_t sweep, const SweepOutcome& outcome) {
   switch (uses_[sweep].role) {
     case Role::Cut:
-      if (outcome.depth > forms_->tool().max_depth + rim_of(stock_.spacing()))
-        touch({IncidentKind::CutTooDeep, ToolPart::Cutter}, sweep, outcome);
+      if (outcome.inside_depth > forms_->tool().max_depth + rim_of(stock_.spacing())) {
+        SweepOutcome inside = outcome;
+        inside.depth = outcome.inside_depth;
+        inside.point = outcome.inside_point;
+        touch({IncidentKind::CutTooDeep, ToolPart::Cutter}, sweep, inside);
+      }
       break;
     case Role::RapidCutter:
       return touch({IncidentKind::RapidInMaterial, ToolPart::Cutter}, sweep, outcome);
@@ -369,7 +400,9 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   const std::size_t number = cut_ + use.stretch;
   const auto [known, is_new] = open_.try_emplace(key);
   OpenIncident& episode = known->second;
-  const bool goes_on = !is_new && number <= episode.last_stretch + 1;
+  // A short motion may meet no dexel.
+  const double shortest = key.first == IncidentKind::CutTooDeep ? 2 * stock_.spacing() : 0;
+  const bool goes_on = !is_new && (number <= episode.last_stretch + 1 || stretch.way < episode.last_way + shortest);
   if (!is_new && !goes_on) close(episode);
   if (!goes_on) {
     episode = {.incident = {.kind = key.first,
@@ -383,6 +416,7 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   }
   Incident& incident = episode.incident;
   episode.last_stretch = number;
+  episode.last_way = stretch.way + stretch.length;
   incident.end_line = stretch.line;
   incident.end_time = stretch.stretch.time_at(use.to);
   // Dexels do not measure along a tool that lies: there, how far it goes does.
@@ -416,10 +450,6 @@ void MaterialCheck::end_way() {
   // A way outside the window may have met something.
   if (way_ && way_->amount > workpiece_.longest_air_cut && !workpiece_.window) keep(*way_);
   way_.reset();
-}
-
-static bool is_rounded_corner(const kinematics::Path& path) {
-  return path.kind == kinematics::PathKind::Polynomial && !(path.c[2].isZero(0) && path.c[3].isZero(0));
 }
 
 /// Which stretches begin at a height to which a cut in feed has led.

@@ -95,6 +95,7 @@ class MaterialCheck {
     bool is_feed = false;
     bool is_standing = false;  ///< A tool where it is mounted.
     double length = 0;         ///< Of the tip's path, mm.
+    double way = 0;            ///< Of the tip up to its start, mm.
     double rise = 0;           ///< From its start to its end, along Z of the frame, mm.
     bool is_from_cut = false;  ///< A cut in feed has led to the height of its start. Known once it has been cut.
   };
@@ -112,6 +113,7 @@ class MaterialCheck {
     Incident incident;
     std::size_t last_stretch = 0;  ///< Counted from the start of the run.
     bool begins_in_feed = false;
+    double last_way = 0;                       ///< Of the tip up to where it was met last, mm.
     double deepest = 0;                        ///< Of the sweeps that have been compared, mm.
     std::optional<std::size_t> first_sweep;    ///< Of the present batch, where it begins there.
     std::optional<std::size_t> deepest_sweep;  ///< Of the present batch, where it is worst there.
@@ -121,6 +123,7 @@ class MaterialCheck {
 
   void stand(std::size_t line, double time, const geometry::Frame& frame);
   void append_pieces(bool is_feed);
+  double end_rim(const TipPath& piece) const;
   void show_moments(const motion::Stretch& stretch);
   void append_sweeps(const TipPath& piece, bool is_feed);
   void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role);
@@ -170,6 +173,7 @@ class MaterialCheck {
   std::vector<stock::Sweep> sweeps_;
   std::vector<SweepUse> uses_;
   std::vector<TipPath> pieces_;  ///< Kept, so that its memory is.
+  double way_taken_ = 0;         ///< Of the tip, mm.
   std::size_t cut_ = 0;          ///< Stretches that have been cut.
   std::map<IncidentKey, OpenIncident> open_;
   std::vector<OpenIncident> closed_;  ///< Of the present batch.

@@ -89,14 +89,31 @@ double tilt_of(const Sweep& sweep) {
   return std::max(std::abs(turning.from.axis.z()), std::abs(turning.to.axis.z()));
 }
 
+/// Where the depth of the cut of a unit is told.
+CutBand band_of(const UnitSweep& unit, const SweptShape& shape, const Sweep& sweep) {
+  if (!(sweep.side_rim > 0 || sweep.end_rim > 0)) return {};
+  if (const auto* line = std::get_if<UprightLine>(&unit.motion))
+    return CutBand::along_line(line->from.head<2>(), line->to.head<2>(), shape.radius, sweep.side_rim, sweep.end_rim);
+  if (const auto* arc = std::get_if<LevelArc>(&unit.motion))
+    return CutBand::along_arc(arc->center, arc->start, arc->end, shape.radius, sweep.side_rim, sweep.end_rim);
+  if (std::holds_alternative<TurningPath>(sweep.path)) return {};
+  const SlantedLine& line = std::get<SlantedLine>(unit.motion);
+  return CutBand::along_slanted(line.from.origin, line.from.axis, line.travel, shape.radius, sweep.side_rim);
+}
+
+void take_deeper(const DeepestDexel& dexel, const DexelGrid& part, double tilt, double& depth, geometry::Vec3& point) {
+  const double deep = static_cast<double>(dexel.depth) * tilt;
+  if (dexel.row < 0 || deep < depth || (deep == depth && depth > 0)) return;
+  depth = deep;
+  point = {part.x(dexel.column), part.y(dexel.row), dexel.bottom};
+}
+
 /// Adds what one unit has met in one tile.
 void add(const DexelCount& count, const DexelGrid& part, double cell, double tilt, SweepOutcome& outcome) {
   outcome.volume += count.length * cell;
-  const double depth = static_cast<double>(count.depth) * tilt;
-  outcome.length = std::max(outcome.length, static_cast<double>(count.depth));
-  if (count.row < 0 || depth < outcome.depth || (depth == outcome.depth && outcome.depth > 0)) return;
-  outcome.depth = depth;
-  outcome.point = {part.x(count.column), part.y(count.row), count.bottom};
+  outcome.length = std::max(outcome.length, static_cast<double>(count.all.depth));
+  take_deeper(count.all, part, tilt, outcome.depth, outcome.point);
+  take_deeper(count.inside, part, tilt, outcome.inside_depth, outcome.inside_point);
 }
 
 }  // namespace
@@ -133,11 +150,11 @@ std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Work
         std::atomic_thread_fence(std::memory_order_acquire);
         changed->prepare();
       }
-      DexelSink sink(*changed, part, sweep.tag);
+      DexelSink sink(*changed, part, sweep.tag, band_of(unit, divided.shape_of(unit), sweep));
       divided.apply(unit, before, sink);
       before = &unit;
       count = sink.count();
-      is_cut |= count.row >= 0;
+      is_cut |= count.all.row >= 0;
     }
     if (!is_cut) return;
     changed->tighten();
@@ -158,7 +175,8 @@ std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Work
     for (std::size_t i = 0; i < units.size(); ++i) {
       const UnitSweep& unit = divided.units()[units[i]];
       const DexelCount& count = counts[bins.start_of(index) + i];
-      if (count.row >= 0) add(count, part, grid().cell(), std::abs(tilt_of(sweeps[unit.sweep])), outcomes[unit.sweep]);
+      if (count.all.row >= 0)
+        add(count, part, grid().cell(), std::abs(tilt_of(sweeps[unit.sweep])), outcomes[unit.sweep]);
     }
   }
   return outcomes;

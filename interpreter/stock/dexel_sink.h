@@ -10,8 +10,9 @@ namespace isocnc::stock {
 /// Takes the intervals of dexels of one tile that a sweep covers, and cuts them, or only counts the material in them.
 class DexelSink {
  public:
-  DexelSink(Tile& tile, const DexelGrid& grid, CutTag tag) : grid_(grid), tile_(tile), cut_(&tile), tag_(tag) {}
-  DexelSink(const Tile& tile, const DexelGrid& grid) : grid_(grid), tile_(tile) {}
+  DexelSink(Tile& tile, const DexelGrid& grid, CutTag tag, const CutBand& band)
+      : grid_(grid), tile_(tile), cut_(&tile), tag_(tag), count_(band, grid.first, grid.spacing) {}
+  DexelSink(const Tile& tile, const DexelGrid& grid) : grid_(grid), tile_(tile), count_({}, grid.first, grid.spacing) {}
 
   const DexelGrid& grid() const { return grid_; }
   double floor() const { return tile_.floor(); }
@@ -82,7 +83,7 @@ class DexelSink {
   const Tile& tile_;
   Tile* cut_ = nullptr;
   CutTag tag_ = 0;
-  DexelCount count_;
+  CutCount count_;
   std::array<float, Tile::kSize> bottoms_;
   std::array<float, Tile::kSize> tops_;
 };

@@ -44,6 +44,10 @@ struct Sweep {
   SweepPath path;
   CutTag tag = 0;  ///< Below 0xFFFFFFFF.
   SweepPurpose purpose = SweepPurpose::Cut;
+  /// How wide the rims are, at the sides and at the ends of what the body covers, that SweepOutcome::inside_depth
+  /// leaves out, mm; at most half the radius. 0: nothing is left out.
+  double side_rim = 0;
+  double end_rim = 0;
 };
 
 /// What a sweep has removed, or met.
@@ -54,6 +58,10 @@ struct SweepOutcome {
   double depth = 0;
   double length = 0;                              ///< Greatest length of material in one dexel, vertical as it is, mm.
   geometry::Vec3 point = geometry::Vec3::Zero();  ///< Lower end of that material; of equal ones, the first in order.
+
+  /// Of cuts: the depth, and its point, without the rims. While the axis turns, nothing is left out.
+  double inside_depth = 0;
+  geometry::Vec3 inside_point = geometry::Vec3::Zero();
 
   /// Whether any material has been met or removed. A body that only touches the material does not meet it.
   bool meets() const { return volume > 0; }

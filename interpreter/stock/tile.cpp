@@ -21,11 +21,7 @@ double stepped(float length) {
 }
 
 void note_deepest(DexelCount& count, int row, int column, float depth, float bottom) {
-  if (!(depth > count.depth)) return;
-  count.depth = depth;
-  count.row = row;
-  count.column = column;
-  count.bottom = bottom;
+  if (depth > count.all.depth) count.all = {depth, row, column, bottom};
 }
 
 }  // namespace
@@ -179,7 +175,7 @@ bool Tile::has_lower(int row, int column) const {
 }
 
 /// One interval in the dexel; the frequent cases first.
-void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, DexelCount& count) {
+void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, CutCount& count) {
   if (has_lower(row, column)) return cut_dexel_of_many(row, column, bottom, top, tag, count);
   const std::size_t at = index(row, column);
   const float old_top = tops_[at];
@@ -190,7 +186,7 @@ void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, D
   if (bottom - old_bottom < kSkin) bottom = old_bottom;
   if (old_top - top < kSkin) top = old_top;
   count.length += stepped(top - bottom);
-  note_deepest(count, row, column, top - bottom, bottom);
+  count.note(row, column, top - bottom, bottom);
   tags_[at] = tag;
   if (top == old_top) {
     tops_[at] = bottom;
@@ -201,7 +197,7 @@ void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, D
 }
 
 /// Several intervals in the dexel.
-void Tile::cut_dexel_of_many(int row, int column, float bottom, float top, CutTag tag, DexelCount& count) {
+void Tile::cut_dexel_of_many(int row, int column, float bottom, float top, CutTag tag, CutCount& count) {
   const std::size_t at = index(row, column);
   LowerIntervals& all = lower_[static_cast<std::size_t>(row)];
   const auto is_before = [](const LowerInterval& interval, int wanted) { return interval.column < wanted; };
@@ -233,7 +229,7 @@ void Tile::cut_dexel_of_many(int row, int column, float bottom, float top, CutTa
   for (auto each = first; each != last; ++each) cut(each->bottom, each->top);
   if (!(removed > 0)) return;
   count.length += stepped(removed);
-  note_deepest(count, row, column, removed, lowest);
+  count.note(row, column, removed, lowest);
   tags_[at] = tag;
   const auto place = all.erase(first, last);
   if (left.empty()) {
@@ -248,7 +244,7 @@ void Tile::cut_dexel_of_many(int row, int column, float bottom, float top, CutTa
 /// For cuts that reach above all material of a row in which no dexel has a second interval. `bottoms` holds one bound
 /// for each dexel, or is null where `lowest` is that of all of them.
 void Tile::cut_from_above(int row, int first, int last, const float* bottoms, float lowest, CutTag tag,
-                          DexelCount& count) {
+                          CutCount& count) {
   const std::size_t start = index(row, first);
   float* const tops = tops_.data() + start;
   CutTag* const tags = tags_.data() + start;
@@ -256,7 +252,7 @@ void Tile::cut_from_above(int row, int first, int last, const float* bottoms, fl
   const int size = last - first;
   std::array<double, kLanes> sums{};
   const auto note = [&](int from, int number, const float* removed, const float* after) {
-    for (int i = 0; i < number; ++i) note_deepest(count, row, first + from + i, removed[i], after[i]);
+    for (int i = 0; i < number; ++i) count.note(row, first + from + i, removed[i], after[i]);
   };
   int i = 0;
   for (; i + kLanes <= size; i += kLanes) {
@@ -271,7 +267,7 @@ void Tile::cut_from_above(int row, int first, int last, const float* bottoms, fl
     CutTag* const tag_lane = tags + i;
     for (std::size_t k = 0; k < kLanes; ++k) sums[k] += stepped(lane[k]);
     for (int k = 0; k < kLanes; ++k) tag_lane[k] = lane[k] > 0 ? tag : tag_lane[k];
-    if (removed.maxCoeff() > count.depth) note(i, kLanes, removed.data(), after.data());
+    if (removed.maxCoeff() > count.inside.depth) note(i, kLanes, removed.data(), after.data());
   }
   double rest = 0;
   for (; i < size; ++i) {
@@ -287,20 +283,19 @@ void Tile::cut_from_above(int row, int first, int last, const float* bottoms, fl
   count.length += rest;
 }
 
-void Tile::cut_run(int row, int first, int last, float bottom, float top, CutTag tag, DexelCount& count) {
+void Tile::cut_run(int row, int first, int last, float bottom, float top, CutTag tag, CutCount& count) {
   if (!(bottom < top) || bottom >= ceiling_ || top <= floor_) return;
   if (top >= ceiling_ && !has_lower(row)) return cut_from_above(row, first, last, nullptr, bottom, tag, count);
   for (int column = first; column < last; ++column) cut_dexel(row, column, bottom, top, tag, count);
 }
 
-void Tile::cut_row(int row, int first, int last, const float* bottoms, const float* tops, CutTag tag,
-                   DexelCount& count) {
+void Tile::cut_row(int row, int first, int last, const float* bottoms, const float* tops, CutTag tag, CutCount& count) {
   const int size = last - first;
   for (int i = 0; i < size; ++i)
     if (bottoms[i] < tops[i]) cut_dexel(row, first + i, bottoms[i], tops[i], tag, count);
 }
 
-void Tile::cut_row(int row, int first, int last, const float* bottoms, float top, CutTag tag, DexelCount& count) {
+void Tile::cut_row(int row, int first, int last, const float* bottoms, float top, CutTag tag, CutCount& count) {
   if (top <= floor_) return;
   if (top >= ceiling_ && !has_lower(row)) return cut_from_above(row, first, last, bottoms, 0, tag, count);
   for (int i = 0; i < last - first; ++i)

@@ -7,22 +7,51 @@
 #include <span>
 #include <vector>
 
+#include "interpreter/chords/cut_band.h"
 #include "interpreter/chords/height_interval.h"
 
 namespace isocnc::stock {
 
+using chords::CutBand;
 using chords::HeightInterval;
 
 /// Says which sweep cut a dexel last. The module gives it no meaning.
 using CutTag = std::uint32_t;
 
+/// The dexel of which most is removed, or met.
+struct DeepestDexel {
+  float depth = 0;   ///< Length of what is removed or met in it, mm.
+  int row = -1;      ///< Negative: there is none.
+  int column = -1;   ///< Negative: there is none.
+  float bottom = 0;  ///< Lowest end of what is removed or met in it, mm.
+};
+
 /// What one sweep removes from the dexels of a tile, or meets in them.
 struct DexelCount {
-  double length = 0;  ///< Sum over the dexels, mm, each in steps of 2^-30 mm.
-  float depth = 0;    ///< Greatest length in one dexel, mm.
-  int row = -1;       ///< Dexel of the greatest length.
-  int column = -1;    ///< Dexel of the greatest length.
-  float bottom = 0;   ///< Lowest end of what is removed or met in that dexel, mm.
+  double length = 0;    ///< Sum over the dexels, mm, each in steps of 2^-30 mm.
+  DeepestDexel all;     ///< Of all dexels.
+  DeepestDexel inside;  ///< Of cuts: of the dexels that are not at the rim of what the sweep covers.
+};
+
+/// A count of what is cut, and the places that are not at the rim.
+class CutCount : public DexelCount {
+ public:
+  /// `first` and `spacing`: of the tile's dexels.
+  CutCount(const CutBand& band, const geometry::Vec2& first, const geometry::Vec2& spacing)
+      : band_(band), first_(first), spacing_(spacing) {}
+
+  /// Notes what has been removed of a dexel.
+  void note(int row, int column, float depth, float bottom) {
+    if (depth > all.depth) all = {depth, row, column, bottom};
+    if (depth > inside.depth && band_.contains({first_.x() + column * spacing_.x(), first_.y() + row * spacing_.y(),
+                                                static_cast<double>(bottom)}))
+      inside = {depth, row, column, bottom};
+  }
+
+ private:
+  CutBand band_;
+  geometry::Vec2 first_;
+  geometry::Vec2 spacing_;
 };
 
 /// An interval of a dexel of a tile, mm.
@@ -76,13 +105,13 @@ class Tile {
   void tighten();
 
   /// Removes [bottom, top] from the columns [first, last) of a row.
-  void cut_run(int row, int first, int last, float bottom, float top, CutTag tag, DexelCount& count);
+  void cut_run(int row, int first, int last, float bottom, float top, CutTag tag, CutCount& count);
   /// The same, with an interval of its own for each dexel: `bottoms` and `tops` are those of the columns from `first`.
   /// A dexel with bottom >= top is left alone.
-  void cut_row(int row, int first, int last, const float* bottoms, const float* tops, CutTag tag, DexelCount& count);
+  void cut_row(int row, int first, int last, const float* bottoms, const float* tops, CutTag tag, CutCount& count);
 
   /// The same where all intervals end at `top`.
-  void cut_row(int row, int first, int last, const float* bottoms, float top, CutTag tag, DexelCount& count);
+  void cut_row(int row, int first, int last, const float* bottoms, float top, CutTag tag, CutCount& count);
 
   /// The upper ends of the dexels of a row from a column on, if each has at most one interval; else null.
   const float* tops(int row, int first) const {
@@ -118,11 +147,11 @@ class Tile {
   float bottom_at(std::size_t index) const { return bottoms_.empty() ? bottom_ : bottoms_[index]; }
   bool has_lower(int row) const { return !lower_.empty() && !lower_[static_cast<std::size_t>(row)].empty(); }
   bool has_lower(int row, int column) const;
-  void cut_dexel(int row, int column, float bottom, float top, CutTag tag, DexelCount& count);
-  void cut_dexel_of_many(int row, int column, float bottom, float top, CutTag tag, DexelCount& count);
+  void cut_dexel(int row, int column, float bottom, float top, CutTag tag, CutCount& count);
+  void cut_dexel_of_many(int row, int column, float bottom, float top, CutTag tag, CutCount& count);
   void set_bottom(std::size_t index, float bottom);
   void insert_lower(int row, const LowerInterval& interval);
-  void cut_from_above(int row, int first, int last, const float* bottoms, float lowest, CutTag tag, DexelCount& count);
+  void cut_from_above(int row, int first, int last, const float* bottoms, float lowest, CutTag tag, CutCount& count);
   void meet_dexel(int row, int column, float bottom, float top, DexelCount& count) const;
 
   int columns_;

@@ -211,6 +211,51 @@ TEST(Material, DeeperThanTheToolAllows) {
   EXPECT_EQ(told(bench.cut("G00 X250 Y150 Z50\nG01 Z32.1 F1000\nX450\nG01 Z25\nX250\nG00 Z50\n")), Lines());
 }
 
+TEST(Material, WallsThatWereCutBeforeAreNoDeepCut) {
+  Bench bench;
+  ToolBodies& tool = bench.scene.tools[Shop::kTool];
+  tool.max_depth = 8;
+  tool.cutter = Shop::body(solids::flat_body(10.659, 60));
+  for (const double resolution : {0.1, 0.5}) {
+    bench.scene.resolution = resolution;
+    const auto is_free = [&](const std::string& moves, double depth) {
+      const VerifiedRun run = bench.cut("G00 X363.007 Y150 Z50\nG01 Z40 F1000\n" + moves + "G00 Z50\n");
+      EXPECT_EQ(told(run), Lines()) << moves;
+      ASSERT_EQ(run.material->by_tool.size(), 1u);
+      // Of a helix, what each of its chords takes.
+      EXPECT_LE(run.material->by_tool[0].removed.depth, depth + 0.01) << moves;
+      EXPECT_GE(run.material->by_tool[0].removed.depth, depth - 0.3) << moves;
+    };
+    std::string helix;
+    for (int turn = 1; turn <= 8; ++turn)
+      helix += fmt::format("G02 X363.007 Y150 Z{:.2f} I350 J150\n", 40 - 3.1 * turn);
+    is_free(helix + "G02 X363.007 Y150 I350 J150\n", 3.1);
+    std::string ramps;
+    for (int level = 1; level <= 6; ++level)
+      ramps += fmt::format("X{} Y{} Z{}\n", level % 2 == 1 ? 333 : 363.007, level % 2 == 1 ? 130 : 150, 40 - 3 * level);
+    // Back and forth on a ramp, each pass is up to twice as deep as the way is high.
+    is_free(ramps + "X333 Y130\nX363.007 Y150\n", 6);
+    // Three levels, and a pass along the wall that takes 0.1 mm.
+    std::string walls;
+    for (const int z : {34, 28, 22}) walls += fmt::format("G00 Z50\nX250 Y150\nZ{}\nG01 X450 F3000\n", z);
+    is_free(walls + "G00 Z50\nX250 Y150.1\nZ22\nG01 X450\n", 6);
+    // A pass that takes 2 mm of the whole wall is deep.
+    EXPECT_EQ(told(bench.cut(walls + "G00 Z50\nX250 Y152\nZ22\nG01 X450\nG00 Z50\n")), Lines{"W157 18 18.0"});
+  }
+}
+
+TEST(Material, ShortMotionsAreAsDeepAsLongOnes) {
+  Bench bench;
+  bench.scene.tools[Shop::kTool].max_depth = 8;
+  for (const double step : {0.05, 0.3, 2.0}) {
+    std::string slot = "G00 X285 Y150 Z50\nZ31.5\nG01 X287 F1000\n";
+    for (double x = 287 + step; x < 310; x += step) slot += fmt::format("X{:.2f}\n", x);
+    const VerifiedRun run = bench.cut(slot + "G00 Z50\n");
+    ASSERT_EQ(run.contacts.size(), 1u) << step;
+    EXPECT_NEAR(run.contacts[0].distance, -8.5, 0.001) << step;
+  }
+}
+
 TEST(Material, EdgeThatIsTooShort) {
   Bench bench;
   ToolBodies& tool = bench.scene.tools[Shop::kTool];
