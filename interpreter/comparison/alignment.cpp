@@ -38,11 +38,13 @@ bool is_same_effect(const RunPair& runs, const MachineAction& a, const MachineAc
     case ActionKind::Function: {
       const running::FunctionEvent& left = runs.a.functions[a.number];
       const running::FunctionEvent& right = runs.b.functions[b.number];
+      const auto is_same = [](const execution::FunctionParameter& one, const execution::FunctionParameter& other) {
+        return one.number == other.number && std::abs(one.value - other.value) <= kSameValue;
+      };
+      // Each has a name: their order says nothing.
       return left.number == right.number &&
-             std::equal(left.parameters.begin(), left.parameters.end(), right.parameters.begin(),
-                        right.parameters.end(), [](const auto& one, const auto& other) {
-                          return one.number == other.number && std::abs(one.value - other.value) <= kSameValue;
-                        });
+             std::is_permutation(left.parameters.begin(), left.parameters.end(), right.parameters.begin(),
+                                 right.parameters.end(), is_same);
     }
     default:
       return a.number == b.number && std::abs(a.value - b.value) <= kSameValue;
@@ -102,21 +104,74 @@ static bool is_same_rest(const RunPair& runs, const Followed& a, const Followed&
          beside(b_path, b.part, 1, a_path, a.part, -shift, runs.tolerance);
 }
 
+/// Where both have rested for the same time, also in different parts, without a motion between them.
+static std::optional<PlaceInBoth> same_dwell(const RunPair& runs, PlaceInBoth place) {
+  constexpr double kSameSeconds = 1e-6;
+  double ahead = 0;  // By how much longer a has rested.
+  const auto rest = [](const RecordedRun& run, std::size_t& i) -> std::optional<double> {
+    if (i == run.actions.size() || run.actions[i].kind != ActionKind::Dwell) return std::nullopt;
+    return run.actions[i++].value;
+  };
+  do {
+    const bool is_a_next = ahead <= 0;
+    const std::optional<double> seconds = is_a_next ? rest(runs.a, place.a) : rest(runs.b, place.b);
+    if (!seconds) return std::nullopt;
+    ahead += is_a_next ? *seconds : -*seconds;
+  } while (std::abs(ahead) > kSameSeconds);
+  return place;
+}
+
+bool goes_same_way(const RunPair& runs, const MachineAction& a, const MachineAction& b) {
+  if (a.is_line() && b.is_line()) return true;
+  // Rapids by joints go where their ends lead them.
+  if (a.is_by_joints || b.is_by_joints) return a.is_by_joints && b.is_by_joints;
+  const Vec3 at_start = b.from.tip - a.from.tip;
+  const Vec3 at_end = b.to.tip - a.to.tip;
+  const double square = runs.tolerance * runs.tolerance;
+  const ActionPath a_path(runs.a, a);
+  const ActionPath b_path(runs.b, b);
+  if ((at_end - at_start).squaredNorm() <= square) {
+    const Vec3 shift = (at_start + at_end) / 2;
+    return is_same_arc(runs, a, b, shift) || (beside(a_path, 0, 1, b_path, 0, shift, runs.tolerance) &&
+                                              beside(b_path, 0, 1, a_path, 0, -shift, runs.tolerance));
+  }
+  constexpr int kPoints = 2 * kSamples;
+  for (int i = 1; i < kPoints; ++i) {
+    const double part = static_cast<double>(i) / kPoints;
+    const Vec3 there = a_path.at(part).tip + at_start + part * (at_end - at_start);
+    if ((b_path.at(part).tip - there).squaredNorm() > square) return false;
+  }
+  return true;
+}
+
+bool is_other_way_around(const RunPair& runs, const MachineAction& a, const MachineAction& b) {
+  if (a.arc == MachineAction::kNone || b.arc == MachineAction::kNone) return false;
+  const ActionArc& left = runs.a.arcs[a.arc];
+  const ActionArc& right = runs.b.arcs[b.arc];
+  return left.normal.dot(right.normal) * left.sweep_deg * right.sweep_deg < 0;
+}
+
 std::optional<PlaceInBoth> same_step(const RunPair& runs, const PlaceInBoth& place, const Vec3& shift,
                                      const OverlapListener& overlap) {
   Followed a{place.a};
   Followed b{place.b};
+  bool is_rapid_alone = false;
   for (std::size_t parts = 0; parts < kMaxParts; ++parts) {
     if (a.index >= runs.a.actions.size() || b.index >= runs.b.actions.size()) return std::nullopt;
     const MachineAction& left = runs.a.actions[a.index];
     const MachineAction& right = runs.b.actions[b.index];
     if (!left.is_motion() || !right.is_motion()) {
-      const bool is_same = parts == 0 && is_same_effect(runs, left, right);
+      if (parts > 0) return std::nullopt;
+      const bool is_same = is_same_effect(runs, left, right);
+      if (!is_same && left.kind == ActionKind::Dwell && right.kind == ActionKind::Dwell) return same_dwell(runs, place);
       return is_same ? std::optional(PlaceInBoth{a.index + 1, b.index + 1}) : std::nullopt;
     }
     if (parts == 0 && !is_near(left.from, right.from, shift, runs.tolerance)) return std::nullopt;
     if (overlap) overlap(a.index, b.index);
+    is_rapid_alone = is_rapid_alone || left.is_rapid != right.is_rapid;
     if (ends_together(runs, left, right, shift)) {
+      // Where both go from rapid to feed, they do so in different places.
+      if (is_rapid_alone && a.index > place.a && b.index > place.b) return std::nullopt;
       if (!is_same_rest(runs, a, b, shift)) return std::nullopt;
       return PlaceInBoth{a.index + 1, b.index + 1};
     }
@@ -142,7 +197,7 @@ namespace {
 /// Finds the pieces from the start of two runs to their ends.
 class Aligner {
  public:
-  explicit Aligner(const RunPair& runs) : runs_(runs) {}
+  Aligner(const RunPair& runs, const Vec3& shift) : runs_(runs), shift_(shift) {}
 
   std::vector<AlignedPiece> pieces() {
     while (place_.a < runs_.a.actions.size() || place_.b < runs_.b.actions.size()) {
@@ -312,7 +367,7 @@ class Aligner {
 
   const RunPair& runs_;
   PlaceInBoth place_;
-  Vec3 shift_ = Vec3::Zero();
+  Vec3 shift_;
   std::vector<AlignedPiece> pieces_;
   std::size_t pairs_ = 0;
   std::optional<Anchors> anchors_;
@@ -320,6 +375,6 @@ class Aligner {
 
 }  // namespace
 
-std::vector<AlignedPiece> align(const RunPair& runs) { return Aligner(runs).pieces(); }
+std::vector<AlignedPiece> align(const RunPair& runs, const Vec3& shift) { return Aligner(runs, shift).pieces(); }
 
 }  // namespace isocnc::comparison

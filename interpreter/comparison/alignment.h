@@ -51,8 +51,17 @@ bool is_same_effect(const RunPair& runs, const MachineAction& a, const MachineAc
 /// Whether two motions end in the same place.
 bool ends_together(const RunPair& runs, const MachineAction& a, const MachineAction& b, const geometry::Vec3& shift);
 
-/// Aligns two runs, from their starts to their ends. Takes time in proportion to the actions and, for each difference,
-/// to the square of its size, up to a limit (docs/isodiff.md).
-std::vector<AlignedPiece> align(const RunPair& runs);
+/// Whether one motion goes where the other one does, from its start to its end, when it is shifted by what lies between
+/// their starts and, more and more, by what lies between their ends. Where both are the same, that is the whole path. A
+/// line goes the same way as any other one; an arc the other way around, of another radius or in place of a line does
+/// not.
+bool goes_same_way(const RunPair& runs, const MachineAction& a, const MachineAction& b);
+
+/// Whether two arcs turn in opposite directions.
+bool is_other_way_around(const RunPair& runs, const MachineAction& a, const MachineAction& b);
+
+/// Aligns two runs, from their starts to their ends. `shift` leads from a's start to that of b. Takes time in
+/// proportion to the actions and, for each difference, to the square of its size, up to a limit (docs/isodiff.md).
+std::vector<AlignedPiece> align(const RunPair& runs, const geometry::Vec3& shift = geometry::Vec3::Zero());
 
 }  // namespace isocnc::comparison

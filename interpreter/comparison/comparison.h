@@ -12,14 +12,14 @@ namespace isocnc::comparison {
 /// What changes, in the order of their names in JSON.
 enum class ChangeKind : std::uint8_t {
   Moved,      ///< The same motions, elsewhere.
-  Shape,      ///< Another path between the same places.
+  Shape,      ///< Another path between the same places, or the same one the other way around.
   Added,      ///< Motions that only the new program has.
   Removed,    ///< Motions that only the old program has.
   Reordered,  ///< The same in another order.
   Feed,       ///< Another feed, or a rapid instead of a feed move.
   Speed,      ///< The spindle turns otherwise.
   Tool,       ///< Another tool, or a tool change more or less.
-  Function,   ///< An M of the user, a signal such as G990, or an exact stop.
+  Function,   ///< An M of the user, a signal such as G990, or an exact stop. Without values: too many to look into.
   Frame,      ///< All is moved because the frame is elsewhere.
   Dwell,      ///< Another time at rest.
   Path,       ///< An IF is taken by one program only.
@@ -41,12 +41,14 @@ struct BehaviorChange {
   std::optional<ChangedLines> new_lines;
   std::optional<execution::ToolCode> old_tool;  ///< The mounted one, if the old program has a part in the change.
   std::optional<execution::ToolCode> new_tool;
-  /// Moved and Shape: how far a point of one path is at most from the other path, mm, or the length of `shift`. None
-  /// where only B and C differ, or where that was not computed.
+  /// Moved and Shape: how far a point of one path is at most from the other path, mm, or the length of `shift`; 0 for
+  /// the same path the other way around. None where only B and C differ, or where that was not computed. Of what the
+  /// machine does elsewhere on the same path: the length of `later`.
   std::optional<double> distance;
   double turned = 0;                    ///< Moved: by how much B or C end elsewhere at most, degrees.
   std::optional<geometry::Vec3> shift;  ///< From old to new, mm, if all is moved by the same.
-  std::string old_value;                ///< As programs write it: `F4000`, `S12000 M03`; empty for nothing.
+  double later = 0;  ///< Function, Dwell, Speed, Tool: how much farther on the way the new program does the same, mm.
+  std::string old_value;  ///< As programs write it: `F4000`, `S12000 M03`; empty for nothing.
   std::string new_value;
   std::size_t old_motions = 0;
   std::size_t new_motions = 0;

@@ -29,6 +29,11 @@ constexpr Text kOtherTurn{"the same path with B or C turned otherwise",
 constexpr Text kOtherCount{"another path, {} instead of {}, up to {} mm away",
                            "un altro percorso, {} invece di {}, fino a {} mm di distanza"};
 constexpr Text kOtherWhole{"another path, {} instead of {}", "un altro percorso, {} invece di {}"};
+constexpr Text kWayBack{"the same path the other way around", "lo stesso percorso nel verso opposto"};
+constexpr Text kOtherFunctions{"other functions, too many to compare", "altre funzioni, troppe per confrontarle"};
+constexpr Text kEarlier{"{} comes {} mm earlier", "{} viene {} mm prima"};
+constexpr Text kLater{"{} comes {} mm later", "{} viene {} mm dopo"};
+constexpr Text kDwellOf{"dwell of {}", "attesa di {}"};
 constexpr Text kMotion{"1 motion", "1 movimento"};
 constexpr Text kMotions{"{} motions", "{} movimenti"};
 constexpr Text kAdded{"added: {}", "aggiunto: {}"};
@@ -123,6 +128,7 @@ std::string shape_in_words(const BehaviorChange& change, Language language) {
   const bool is_one = change.old_motions == 1 && change.new_motions == 1;
   if (!change.distance)
     return is_one ? std::string(kOtherTurn.in(language)) : dialect::format(kOtherWhole, language, new_count, old_count);
+  if (*change.distance == 0) return std::string(kWayBack.in(language));
   const std::string distance = shown_distance(*change.distance);
   return is_one ? dialect::format(kShape, language, distance)
                 : dialect::format(kOtherCount, language, new_count, old_count, distance);
@@ -135,7 +141,13 @@ std::string end_in_words(const BehaviorChange& change, Language language) {
                          shown_count(change.new_motions, language), change.old_motions);
 }
 
+std::string later_in_words(std::string_view what, double later, Language language) {
+  return dialect::format(later < 0 ? kEarlier : kLater, language, what, shown_distance(std::abs(later)));
+}
+
 std::string exchange_in_words(const BehaviorChange& change, Language language) {
+  if (change.old_value.empty() && change.new_value.empty()) return std::string(kOtherFunctions.in(language));
+  if (change.later != 0) return later_in_words(change.new_value, change.later, language);
   if (change.old_value.empty()) return dialect::format(kAdded, language, change.new_value);
   if (change.new_value.empty()) return dialect::format(kRemoved, language, change.old_value);
   if (change.kind == ChangeKind::End) return end_in_words(change, language);
@@ -143,6 +155,8 @@ std::string exchange_in_words(const BehaviorChange& change, Language language) {
 }
 
 std::string dwell_in_words(const BehaviorChange& change, Language language) {
+  if (change.later != 0)
+    return later_in_words(dialect::format(kDwellOf, language, change.new_value), change.later, language);
   if (change.old_value.empty()) return dialect::format(kDwellAdded, language, change.new_value);
   if (change.new_value.empty()) return dialect::format(kDwellRemoved, language, change.old_value);
   return dialect::format(kDwell, language, change.new_value, change.old_value);

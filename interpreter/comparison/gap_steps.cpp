@@ -16,18 +16,22 @@ static float replacement_cost(const RunPair& runs, const MachineAction& a, const
                               const Vec3& after) {
   if (a.kind != b.kind) return kNever;
   if (!a.is_motion()) return is_same_effect(runs, a, b) ? 0.F : 1.F;
-  if (ends_together(runs, a, b, before) || ends_together(runs, a, b, after)) return 0;
+  constexpr float kOtherWay = 0.5F;
+  if (ends_together(runs, a, b, before) || ends_together(runs, a, b, after))
+    return goes_same_way(runs, a, b) ? 0.F : kOtherWay;
   const double distance = (b.to.tip - a.to.tip - before).norm();
   const double length = 1 + (a.to.tip - a.from.tip).norm() + (b.to.tip - b.from.tip).norm();
   return 1 + 0.9F * static_cast<float>(std::min(1.0, distance / length));
 }
+
+bool is_too_large(std::size_t a_count, std::size_t b_count) { return b_count > 0 && a_count > kMaxCells / b_count; }
 
 std::optional<std::vector<GapStep>> gap_steps(const RunPair& runs, const AlignedPiece& gap, const Vec3& shift) {
   const std::size_t rows = gap.a_end - gap.a_begin;
   const std::size_t columns = gap.b_end - gap.b_begin;
   if (rows == 0 || columns == 0)
     return std::vector<GapStep>(rows + columns, rows == 0 ? GapStep::OnlyInB : GapStep::OnlyInA);
-  if (rows > kMaxCells / columns) return std::nullopt;
+  if (is_too_large(rows, columns)) return std::nullopt;
   std::vector<GapStep> last((rows + 1) * (columns + 1), GapStep::OnlyInB);
   std::vector<float> costs(columns + 1);
   for (std::size_t k = 0; k <= columns; ++k) costs[k] = static_cast<float>(k);

@@ -25,6 +25,7 @@ std::vector<BehaviorChange> swapped(std::vector<BehaviorChange> changes) {
     std::swap(change.old_motions, change.new_motions);
     std::swap(change.old_cause, change.new_cause);
     if (change.shift) *change.shift *= -1;
+    change.later *= -1;
     if (change.kind == ChangeKind::Added) {
       change.kind = ChangeKind::Removed;
     } else if (change.kind == ChangeKind::Removed) {
@@ -80,7 +81,7 @@ TEST(ComparisonProperty, ChordsWithinTheToleranceMakeNoDifference) {
 
 // A single change, found and found alone.
 
-enum class SeededChange { Coordinate, Feed, LineLost, LinesSwapped, Tool, Speed, Increment, Turn };
+enum class SeededChange { Coordinate, TwoCoordinates, Feed, LineLost, LinesSwapped, Tool, Speed, Increment, Turn };
 
 /// A step whose change counts for itself: a straight motion that leads elsewhere and from which no arc starts.
 std::optional<std::size_t> free_step(const RandomPart& part, support::Random& random) {
@@ -122,12 +123,17 @@ TEST(ComparisonProperty, ASingleChangeIsFoundAlone) {
     const std::optional<std::size_t> found = free_step(part, random);
     if (!found) continue;
     const std::size_t step = *found;
-    const auto kind = static_cast<SeededChange>(random.between(0, 7));
+    const auto kind = static_cast<SeededChange>(random.between(0, 8));
     WritingStyle style{.is_numbered = random.one_in(2)};
     ChangeKind expected = ChangeKind::Moved;
     switch (kind) {
       case SeededChange::Coordinate:
         changed.steps[step].to[random.below(3)] += random.between(50, 20'000);
+        break;
+      case SeededChange::TwoCoordinates:
+        if (!part.is_free(step + 1)) continue;
+        changed.steps[step].to[0] += random.between(50, 20'000);
+        changed.steps[step + 1].to[1] += random.between(50, 20'000);
         break;
       case SeededChange::Turn:
         if (!part.is_five_axis) continue;
@@ -175,9 +181,10 @@ TEST(ComparisonProperty, ASingleChangeIsFoundAlone) {
       ASSERT_LT((*change.shift - geometry::Vec3(7, 0, 0)).norm(), 1e-9) << seed;
       continue;
     }
-    const std::size_t last = kind == SeededChange::LinesSwapped ? step + 1 : step;
+    const bool are_two = kind == SeededChange::LinesSwapped || kind == SeededChange::TwoCoordinates;
+    const std::size_t last = are_two ? step + 1 : step;
     ASSERT_EQ(change.old_lines->last, before.lines[last]) << shown(changes) << failure(seed, before.text, after.text);
-    if (kind != SeededChange::Coordinate) continue;
+    if (kind != SeededChange::Coordinate && kind != SeededChange::TwoCoordinates) continue;
     // The distance against a dense reference.
     std::vector<geometry::Vec3> old_path;
     std::vector<geometry::Vec3> new_path;
@@ -187,15 +194,166 @@ TEST(ComparisonProperty, ASingleChangeIsFoundAlone) {
       if (!part.steps[i].is_motion()) continue;
       old_path.push_back(point_of(part.steps[i].to));
       new_path.push_back(point_of(changed.steps[i].to));
-      if (i > step) break;
+      if (i > last) break;
     }
     // The tip of a rapid that turns B or C does not go straight, and the reference does.
     if (part.is_five_axis) continue;
     const double reference = std::max(dense_distance(old_path, new_path), dense_distance(new_path, old_path));
     // Between two points of the reference it can be farther by half of what lies between them.
+    if (kind == SeededChange::Coordinate) {
+      const geometry::Vec3 vector = point_of(changed.steps[step].to) - point_of(part.steps[step].to);
+      ASSERT_NEAR(*change.distance, vector.norm(), 1e-9) << failure(seed, before.text, after.text);
+      ASSERT_LE(reference, *change.distance + 0.001) << failure(seed, before.text, after.text);
+      continue;
+    }
     ASSERT_GE(*change.distance, reference - 0.001) << failure(seed, before.text, after.text);
     ASSERT_LE(*change.distance, reference + 0.05) << failure(seed, before.text, after.text);
   }
+}
+
+// A path that differs, beside another change.
+
+/// The program as lines.
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
+}
+
+/// Points of an arc, dense enough for a distance to a fiftieth of its radius; it starts in -X of its center.
+std::vector<geometry::Vec3> dense_arc(const geometry::Vec3& from, const geometry::Vec3& to,
+                                      const geometry::Vec3& center, bool is_counterclockwise) {
+  const double pi = std::acos(-1.0);
+  const double radius = center.x() - from.x();
+  double sweep = std::atan2(to.y() - center.y(), to.x() - center.x()) - pi;
+  while (is_counterclockwise && sweep <= 0) sweep += 2 * pi;
+  while (!is_counterclockwise && sweep >= 0) sweep -= 2 * pi;
+  std::vector<geometry::Vec3> points;
+  constexpr int kChords = 100;
+  for (int i = 0; i <= kChords; ++i) {
+    const double part = static_cast<double>(i) / kChords;
+    const double angle = pi + part * sweep;
+    points.push_back(center + radius * geometry::Vec3(std::cos(angle), std::sin(angle), 0));
+    points.back().z() = from.z() + part * (to.z() - from.z());
+  }
+  return points;
+}
+
+/// The greatest distance of the points of one row from those of another one.
+double distance_of_points(const std::vector<geometry::Vec3>& from, const std::vector<geometry::Vec3>& to) {
+  double farthest = 0;
+  for (const geometry::Vec3& point : from) {
+    double nearest = 1e300;
+    for (const geometry::Vec3& other : to) nearest = std::min(nearest, (other - point).squaredNorm());
+    farthest = std::max(farthest, nearest);
+  }
+  return std::sqrt(farthest);
+}
+
+enum class Beside { Nothing, Feed, Dwell, DwellLost, Function, Speed, Frame, LineBefore, LineAfter };
+
+TEST(ComparisonProperty, AnArcThatGoesOtherwiseIsNamedBesideAnyChange) {
+  std::size_t named = 0;
+  for (std::uint64_t seed = 1; seed <= tries(); ++seed) {
+    support::Random random(seed);
+    const RandomPart part = random_part(random, random.between(6, 40));
+    std::vector<std::size_t> arcs;
+    for (std::size_t i = 1; i < part.steps.size(); ++i)
+      if (part.is_arc(i)) arcs.push_back(i);
+    if (arcs.empty()) continue;
+    const std::size_t step = arcs[random.below(arcs.size())];
+    std::size_t before = step - 1;
+    while (!part.steps[before].is_motion()) --before;
+    RandomPart changed = part;
+    const bool is_by_radius = part.steps[step].to[0] == part.steps[step].center[0] && random.one_in(2);
+    if (!is_by_radius) changed.steps[step].is_counterclockwise = !part.steps[step].is_counterclockwise;
+
+    // Another change between one motion before it and two after it.
+    const auto beside = static_cast<Beside>(random.between(0, 8));
+    const std::size_t at = std::min(part.steps.size() - 1, step + random.below(3));
+    ComparisonOptions options{
+        .ignores_feed = random.one_in(2), .ignores_speed = random.one_in(2), .ignores_time = random.one_in(2)};
+    RandomPart old_part = part;
+    const auto insert = [&](RandomPart& where, const PartStep& what) {
+      where.steps.insert(where.steps.begin() + static_cast<std::ptrdiff_t>(at) + (at == step ? 0 : 1), what);
+    };
+    const std::size_t arc_now =
+        (beside == Beside::Dwell || beside == Beside::DwellLost || beside == Beside::Function) && at == step ? step + 1
+                                                                                                             : step;
+    switch (beside) {
+      case Beside::Nothing:
+      case Beside::Frame:
+        break;
+      case Beside::Feed:
+        changed.steps[at].feed += 50;
+        break;
+      case Beside::Dwell:
+      case Beside::Function: {
+        const auto kind = beside == Beside::Dwell ? PartStep::Kind::Dwell : PartStep::Kind::Function;
+        insert(old_part, {.kind = kind, .number = 101});
+        insert(changed, {.kind = kind, .number = 102});
+        break;
+      }
+      case Beside::DwellLost:
+        insert(old_part, {.kind = PartStep::Kind::Dwell, .number = 7});
+        insert(changed, {.kind = PartStep::Kind::Function, .number = 103});
+        break;
+      case Beside::Speed:
+        changed.speed = 9000;
+        break;
+      case Beside::LineBefore:
+        // Not the start of the arc, but where the motion to it starts.
+        if (before == 0 || !part.is_free(before - 1)) continue;
+        changed.steps[before - 1].to[1] += 3000;
+        break;
+      case Beside::LineAfter:
+        if (!part.is_free(step + 1)) continue;
+        changed.steps[step + 1].to[1] += 3000;
+        break;
+    }
+    const WrittenPart old_program = written(old_part);
+    WrittenPart new_program = written(changed);
+    std::vector<std::string> lines = lines_of(new_program.text);
+    if (is_by_radius) {
+      std::string& line = lines[new_program.lines[arc_now]];
+      const double radius = std::abs(part.steps[step].center[0] - part.steps[before].to[0]) / 1000.0;
+      const std::size_t center = line.find(" I");
+      line = line.substr(0, center) + fmt::format(" R{:.4f}", 1.5 * radius) + line.substr(line.find(" F"));
+    }
+    if (beside == Beside::Frame) lines.insert(lines.begin() + 2, "G92 X0 Y0 Z-1.5");
+    const std::string text = joined(lines);
+    const RecordedRun old_run = recorded(old_program.text);
+    const RecordedRun new_run = recorded(text);
+    ASSERT_EQ(new_run.actions.back().number, 0U) << failure(seed, old_program.text, text);
+    const std::vector<BehaviorChange> changes = compare(old_run, new_run, options);
+    ASSERT_EQ(shown(swapped(compare(new_run, old_run, options))), shown(changes)) << seed;
+    const std::size_t arc_line = old_program.lines[arc_now];
+    const auto change = std::find_if(changes.begin(), changes.end(), [&](const BehaviorChange& each) {
+      return each.kind == ChangeKind::Shape && each.old_lines == ChangedLines{arc_line, arc_line};
+    });
+    ASSERT_NE(change, changes.end()) << shown(changes) << failure(seed, old_program.text, text);
+    ASSERT_LE(changes.size(), 4U) << shown(changes) << failure(seed, old_program.text, text);
+    ++named;
+    if (is_by_radius) continue;
+    const geometry::Vec3 from = point_of(part.steps[before].to);
+    const geometry::Vec3 to = point_of(part.steps[step].to);
+    const geometry::Vec3 center(part.steps[step].center[0] / 1000.0, part.steps[step].center[1] / 1000.0, from.z());
+    const auto old_arc = dense_arc(from, to, center, part.steps[step].is_counterclockwise);
+    const auto new_arc = dense_arc(from, to, center, !part.steps[step].is_counterclockwise);
+    const double reference = std::max(distance_of_points(old_arc, new_arc), distance_of_points(new_arc, old_arc));
+    ASSERT_NEAR(change->distance.value_or(0), reference, 0.04 * (center - from).norm()) << seed;
+  }
+  EXPECT_GT(named, tries() / 3);
 }
 
 /// Several changes far enough from each other: as many are found, each in its place.

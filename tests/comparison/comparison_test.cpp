@@ -24,6 +24,8 @@ void PrintTo(const ComparisonCase& each, std::ostream* out) { *out << each.name;
 const std::string kHead = "M06 T101001\nS12000 M03\nG00 X10 Y20 Z40\n";
 const std::string kSquare = kHead + "G01 Z-5 F2000\nX100\nY80\nX10\nY20\nG00 Z40\nM02\n";
 
+const std::string kPlunged = kHead + "G01 Z-5 F2000\n";
+
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
   const std::size_t place = text.find(what);
   EXPECT_NE(place, std::string::npos) << what;
@@ -71,7 +73,38 @@ const ComparisonCase kCases[] = {
     {"OtherWayAround", kHead + "G03 X50 Y20 I30 J20 F500\nM02\n", kHead + "G02 X50 Y20 I30 J20 F500\nM02\n",
      "shape 4|4: another path, up to 28.284 mm away\n"},
     {"ArcAsCoarseChords", kHead + "G03 X50 Y20 I30 J20 F500\nM02\n", kHead + "G01 X30 Y0 F500\nX50 Y20\nM02\n",
-     "added -|4: added: 1 motion\n"},
+     "shape 4|4-5: another path, 2 motions instead of 1, up to 5.858 mm away\n"},
+    {"ArcOfAnotherRadiusInAMovedBlock", kPlunged + "X50\nG03 X60 Y30 R10\nG01 Y60\nG00 Z50\nM02\n",
+     kPlunged + "X51\nG03 X61 Y30 R30\nG01 Y60\nG00 Z50\nM02\n",
+     "moved 5-8|5-8: moved by X1\nshape 6|6: another path, up to 2.084 mm away\n"},
+    {"CircleOfAnotherRadiusBesideAFunction", kPlunged + "M08\nG03 X10 Y20 I30 J20\nG01 X20\nM02\n",
+     kPlunged + "M09\nG03 X10 Y20 I15 J20\nG01 X20\nM02\n",
+     "function 5|5: M09 instead of M08\nshape 6|6: another path, up to 30 mm away\n"},
+    {"OtherWayAroundBesideATool", kPlunged + "G03 X-30 Y20 I-10 J20\nG00 Z40\nM06 T101002\nX5\nM02\n",
+     kPlunged + "G02 X-30 Y20 I-10 J20\nG00 Z40\nM06 T101099\nX5\nM02\n",
+     "shape 5|5: another path, up to 28.284 mm away\ntool 7|7: T101099 instead of T101002\n"},
+    {"OtherWayAroundBesideAMovedLine", kPlunged + "X50\nG03 X10 Y20 I30 J20\nG01 Y80\nX0\nM02\n",
+     kPlunged + "X50\nG02 X10 Y20 I30 J20\nG01 Y81\nX0\nM02\n",
+     "shape 6|6: another path, up to 28.284 mm away\nmoved 7-8|7-8: moved by Y1\n"},
+    {"ArcWhoseStartMoves", kPlunged + "X50\nG03 X60 Y30 R10\nG01 Y60\nX0\nM02\n",
+     kPlunged + "X52\nG02 X60 Y30 R10\nG01 Y60\nX0\nM02\n",
+     "moved 5|5: moved by X2\nshape 6|6: another path, up to 4.509 mm away\n"},
+    {"ArcAsLineBesideAFunction", kPlunged + "G03 X50 Y20 I30 J20\nM08\nG01 Y80\nX0\nM02\n",
+     kPlunged + "G01 X50 Y20\nG01 Y80\nX0\nM02\n",
+     "shape 5|5: another path, up to 20 mm away\nfunction 6|-: removed: M08\n"},
+    {"TwoArcsTheOtherWayAround", kPlunged + "G03 X-30 Y20 I-10 J20\nG01 Y60\nG03 X-60 Y60 R15\nG01 X-99\nM02\n",
+     kPlunged + "G02 X-30 Y20 I-10 J20\nG01 Y60\nG02 X-60 Y60 R15\nG01 X-99\nM02\n",
+     "shape 5|5: another path, up to 28.284 mm away\nshape 7|7: another path, up to 21.213 mm away\n"},
+    {"CircleTheOtherWayAround", kPlunged + "G03 X10 Y20 I30 J20\nG01 X20\nM02\n",
+     kPlunged + "G02 X10 Y20 I30 J20\nG01 X20\nM02\n", "shape 5|5: the same path the other way around\n"},
+    {"ContourTheOtherWayAround", kSquare, square("X100\nY80\nX10\nY20\n", "Y80\nX100\nY20\nX10\n"),
+     "shape 5-8|5-8: the same path the other way around\n"},
+    {"SplitOnALineBesideAFunction", kPlunged + "M08\nX60\nY50\nM02\n", kPlunged + "M09\nX40\nX60\nY50\nM02\n",
+     "function 5|5: M09 instead of M08\n"},
+    {"HeightFromWhichToPlunge", kHead + "Z2\nG01 Z-2 F1000\nX50\nM02\n", kHead + "Z1.5\nG01 Z-2 F1000\nX50\nM02\n",
+     "moved 4|4: moved by Z-0.5\n"},
+    {"RapidInsteadOfHalfAFeedMove", kHead + "G01 X50 F500\nY7\nM02\n", kHead + "G00 X30\nG01 X50 F500\nY7\nM02\n",
+     "feed 4|4: G00 instead of F500\n"},
     {"Turn", kHead + "G49\nG01 X20 B10 F500\nX50 Y7\nM02\n", kHead + "G49\nG01 X20 B12 F500\nX50 Y7\nM02\n",
      "moved 5-6|5-6: B or C turned by up to 2 degrees\n"},
 
@@ -84,6 +117,9 @@ const ComparisonCase kCases[] = {
      kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX40\nG01 Z0\nG00 Z40\nX60\nG01 Z0\nG00 Z40\nX80\nG01 Z0\nG00 Z40\nM02\n",
      kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX60\nG01 Z0\nG00 Z40\nX80\nG01 Z0\nG00 Z40\nM02\n",
      "removed 7-9|-: removed: 3 motions\n"},
+    {"LastHoleLost", kHead + "X20 Y0\nG01 Z0 F500\nG00 Z5\nX40\nG01 Z0\nG00 Z5\nX60\nG01 Z0\nG00 Z5\nG00 Z50\nM02\n",
+     kHead + "X20 Y0\nG01 Z0 F500\nG00 Z5\nX40\nG01 Z0\nG00 Z5\nG00 Z50\nM02\n",
+     "removed 10-12|-: removed: 3 motions\nmoved 13|10: moved by X-20\n"},
     {"LinesSwapped", kHead + "X50 Y50\nX100 Y0\nX0 Y7\nM02\n", kHead + "X100 Y0\nX50 Y50\nX0 Y7\nM02\n",
      "reordered 4-5|4-5: order changed\n"},
     {"IncrementsSwapped", kHead + "G91\nX50 Y50\nX100 Y0\nX9 Y7\nM02\n", kHead + "G91\nX100 Y0\nX50 Y50\nX9 Y7\nM02\n",
@@ -98,11 +134,34 @@ const ComparisonCase kCases[] = {
     {"Tool", kSquare, square("T101001", "T101002"), "tool 1|1: T101002 instead of T101001\n"},
     {"Function", kSquare, square("G00 Z40\nM02", "G00 Z40\nM100 P1=2\nM02"), "function -|10: added: M100 P1=2\n"},
     {"Parameter", kSquare + "", square("G00 Z40\nM02", "G00 Z40\nM100 P1=3\nM02"), "function -|10: added: M100 P1=3\n"},
+    {"ParametersInAnotherOrder", kHead + "M100 P1=2 P2=3\nM02\n", kHead + "M100 P2=3 P1=2\nM02\n", ""},
+    {"ParametersExchanged", kHead + "M100 P1=2 P2=3\nM02\n", kHead + "M100 P1=3 P2=2\nM02\n",
+     "function 4|4: M100 P1=3 P2=2 instead of M100 P1=2 P2=3\n"},
+    {"FunctionEarlierOnALine", kPlunged + "X60\nM08\nY50\nM02\n", kPlunged + "X40\nM08\nX60\nY50\nM02\n",
+     "function 6|6: M08 comes 20 mm earlier\n"},
+    {"DwellLaterOnAContour", kPlunged + "X60\nG04 P1\nY50\nX99\nM02\n", kPlunged + "X60\nY50\nG04 P1\nX99\nM02\n",
+     "dwell 6|7: dwell of 1 s comes 30 mm later\n"},
+    {"DwellAsTwo", kHead + "G04 P1\nX50\nM02\n", kHead + "G04 P0.5\nG04 P0.5\nX50\nM02\n", ""},
     {"Dwell", kHead + "G04 P1\nM02\n", kHead + "G04 P1.5\nM02\n", "dwell 4|4: dwell of 1.5 s instead of 1 s\n"},
     {"ExactStop", kSquare, square("X100\n", "X100 G09\n"), "function -|5: added: G09\n"},
     {"Path", kHead + "IF VGPL = 1 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nX110\nX120\nM02\n",
      kHead + "IF VGPL = 0 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nX110\nX120\nM02\n",
      "path 5-6|4: another path: the IF of line 4 jumps in the new program only (0 motions instead of 2)\n"},
+    {"JumpBesideADwell", kPlunged + "G04 P1\nX50\nM02\n",
+     kPlunged + "G04 P2\nIF VGPL = 0 GOTO N9\nG00 X99\nN9\nX50\nM02\n", "dwell 5|5: dwell of 2 s instead of 1 s\n"},
+    {"JumpBesideATool", "M06 T101001\nS9000 M03\nM02\n",
+     "M06 T101002\nIF VGPL = 0 GOTO N9\nS1 M04\nN9\nS9000 M03\nM02\n", "tool 1|1: T101002 instead of T101001\n"},
+    {"JumpWithoutIfInTheOtherProgram", kHead + "X20\nX50 Y50\nX70 Y0\nN5 X90 Y90\nX100\nY110\nX120\nM02\n",
+     kHead + "X20\nIF VGPL = 0 GOTO N5\nX50 Y50\nX70 Y0\nN5 X90 Y90\nX100\nY110\nX120\nM02\n",
+     "path 5-6|5: another path: the IF of line 5 jumps in the new program only (0 motions instead of 2)\n"},
+    {"JumpToAnotherBranch",
+     kHead + "IF VGPL = 1 GOTO N5\nX50 Y50\nX70\nIF V1 = 0 GOTO N6\nN5 X20 Y30\nX90\nN6 X99 Y99\nX110\nY120\nM02\n",
+     kHead + "IF VGPL = 0 GOTO N5\nX50 Y50\nX70\nIF V1 = 0 GOTO N6\nN5 X20 Y30\nX90\nN6 X99 Y99\nX110\nY120\nM02\n",
+     "path 5-6|4-9: another path: the IF of line 4 jumps in the new program only (2 motions instead of 2)\n"},
+    {"JumpAfterAnotherChange", kHead + "G04 P1\nIF VGPL = 1 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nY110\nX120\nM02\n",
+     kHead + "G04 P2\nIF VGPL = 0 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nY110\nX120\nM02\n",
+     "dwell 4|4: dwell of 2 s instead of 1 s\n"
+     "path 6-7|5: another path: the IF of line 5 jumps in the new program only (0 motions instead of 2)\n"},
     {"Error", kHead + "G02 X30 Y0 R20 F500\nG01 X7\nM02\n", kHead + "G02 X30 Y0 R2 F500\nG01 X7\nM02\n",
      "end 4-6|4: ends with ISO030 instead of M02: from here on 0 motions instead of 2\n"},
 
@@ -133,6 +192,30 @@ TEST(Comparison, IgnoresWhatIsAskedFor) {
   EXPECT_EQ(
       shown(changes_between(old_program, changed, {.ignores_feed = true, .ignores_speed = true, .ignores_time = true})),
       "");
+}
+
+/// What is ignored takes nothing else with it.
+TEST(Comparison, NamesWhatStandsBesideWhatIsIgnored) {
+  const std::string old_program = kPlunged + "G04 P1\nG03 X10 Y20 I30 J20\nG01 X20 G09\nG03 X40 Y20 R10\nM02\n";
+  const std::string new_program =
+      replaced(kPlunged, "M03", "M04") + "G04 P2\nG03 X10 Y20 I15 J20\nG01 X20\nG02 X40 Y20 R10\nM02\n";
+  EXPECT_EQ(shown(changes_between(old_program, new_program, {.ignores_speed = true, .ignores_time = true})),
+            "shape 6|6: another path, up to 30 mm away\nshape 8|8: another path, up to 14.142 mm away\n");
+  EXPECT_EQ(shown(changes_between(kPlunged + "G04 P1\nX50\nM02\n",
+                                  kPlunged + "IF VGPL = 0 GOTO N9\nG00 X99\nN9\nX50\nM02\n", {.ignores_time = true})),
+            "");
+}
+
+/// More than can be compared, and no motion among it.
+TEST(Comparison, SaysWhereThereAreTooManyFunctions) {
+  std::string old_program = kHead;
+  std::string new_program = kHead;
+  for (int i = 0; i < 1100; ++i) {
+    old_program += fmt::format("M{}\n", 10 + i * 7 % 40);
+    new_program += fmt::format("M{}\n", 50 + i * 11 % 40);
+  }
+  EXPECT_EQ(shown(changes_between(old_program + "X50\nM02\n", new_program + "X50\nM02\n")),
+            "function 4-1103|4-1103: other functions, too many to compare\n");
 }
 
 TEST(Comparison, NeverIgnoresARapidInsteadOfAFeedMove) {
