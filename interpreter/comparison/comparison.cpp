@@ -311,7 +311,7 @@ class ChangeNamer {
   }
 
   void name_part(const DifferentPart& part) {
-    if (name_end(part.actions) || name_path(part)) return;
+    if (name_end(part) || name_path(part)) return;
     name_inside(part);
   }
 
@@ -456,8 +456,23 @@ class ChangeNamer {
   }
   static bool is_empty(const ActionRanges& at) { return at.a_begin == at.a_end && at.b_begin == at.b_end; }
 
+  /// The last actions of a part in which one run does nothing but end.
+  ActionRanges not_run(const DifferentPart& part) const {
+    const ActionRanges& at = part.actions;
+    ActionRanges rest{at.a_end - 1, at.a_end, at.b_end - 1, at.b_end};
+    const AlignedPiece gap{AlignedPiece::Kind::Gap, at.a_begin, rest.a_begin, at.b_begin, rest.b_begin, part.before};
+    const auto steps = gap_steps(runs_, gap, part.before);
+    if (!steps) return at;
+    for (auto step = steps->rbegin(); step != steps->rend() && *step == steps->back(); ++step) {
+      if (*step == GapStep::OnlyInA) --rest.a_begin;
+      if (*step == GapStep::OnlyInB) --rest.b_begin;
+    }
+    return rest;
+  }
+
   /// Where an error ends one run, what the other one does after it is no change of its own.
-  bool name_end(const ActionRanges& at) {
+  bool name_end(const DifferentPart& part) {
+    const ActionRanges& at = part.actions;
     const std::size_t old_count = motions(runs_.a, at.a_begin, at.a_end);
     const std::size_t new_count = motions(runs_.b, at.b_begin, at.b_end);
     if (at.a_end != runs_.a.actions.size() || at.b_end != runs_.b.actions.size() || old_count == new_count)
@@ -465,7 +480,10 @@ class ChangeNamer {
     const MachineAction& left = a(at.a_end - 1);
     const MachineAction& right = b(at.b_end - 1);
     if (left.number == right.number) return false;
-    BehaviorChange& change = add(ChangeKind::End, at);
+    const ActionRanges rest = not_run(part);
+    const DifferentPart first{{at.a_begin, rest.a_begin, at.b_begin, rest.b_begin}, part.before, part.before};
+    if (!is_empty(first.actions)) name_inside(first);
+    BehaviorChange& change = add(ChangeKind::End, rest);
     change.old_value = value_of(runs_.a, left);
     change.new_value = value_of(runs_.b, right);
     return true;

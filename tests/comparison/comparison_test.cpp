@@ -164,6 +164,10 @@ const ComparisonCase kCases[] = {
      "path 6-7|5: another path: the IF of line 5 jumps in the new program only (0 motions instead of 2)\n"},
     {"Error", kHead + "G02 X30 Y0 R20 F500\nG01 X7\nM02\n", kHead + "G02 X30 Y0 R2 F500\nG01 X7\nM02\n",
      "end 4-6|4: ends with ISO030 instead of M02: from here on 0 motions instead of 2\n"},
+    {"OtherWayAroundBeforeAnError", kPlunged + "G03 X50 Y20 I30 J20\nG01 Y80\nG02 X30 Y60 R20\nG01 X7\nM02\n",
+     kPlunged + "G02 X50 Y20 I30 J20\nG01 Y80\nG02 X30 Y60 R2\nG01 X7\nM02\n",
+     "shape 5|5: another path, up to 28.284 mm away\n"
+     "end 7-9|7: ends with ISO030 instead of M02: from here on 0 motions instead of 2\n"},
 
     // Several at once.
     {"TwoFarApart", kSquare, replaced(square("S12000", "S9000"), "G00 Z40\nM02", "G00 Z30\nM02"),
