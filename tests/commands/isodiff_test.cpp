@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -125,6 +126,34 @@ TEST_F(IsodiffCommand, FormattingMakesNoDifference) {
     }
   }
   EXPECT_GT(programs, 10U);
+}
+
+/// What is ignored hides no path: the machine would go around the other side.
+TEST_F(IsodiffCommand, NamesAPathBesideWhatIsIgnored) {
+  const std::string start = "M06 T101001\nS9000 M03\nG00 X10 Y10 Z2\nG01 Z-2 F1000\n";
+  folder_.write("a.iso", start + "G04 P1\nG03 X50 Y10 I30 J10\nG01 X90\nM02\n");
+  folder_.write("b.iso", start + "G04 P2\nG02 X50 Y10 I30 J10\nG01 X90\nM02\n");
+  const CommandResult result = diff({"--ignore", "time", "--format", "json", "a.iso", "b.iso"});
+  EXPECT_EQ(result.status, 1);
+  const json changes = json::parse(result.out).at("changes");
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].at("kind"), "shape");
+  EXPECT_EQ(changes[0].at("old"), json::parse("[6, 6]"));
+  EXPECT_NEAR(changes[0].at("distance").get<double>(), 20 * std::sqrt(2), 0.001);
+}
+
+TEST_F(IsodiffCommand, SaysHowMuchEarlierAFunctionComes) {
+  const std::string start = "M06 T101001\nS9000 M03\nG00 X10 Y10 Z2\nG01 Z-2 F1000\n";
+  folder_.write("a.iso", start + "X60\nM08\nY50\nG04 P1\nX0\nM02\n");
+  folder_.write("b.iso", start + "X40\nM08\nX60\nY50\nX20\nG04 P1\nX0\nM02\n");
+  EXPECT_EQ(diff({"a.iso", "b.iso"}).out,
+            "T101001\n"
+            "  line 6: M08 comes 20 mm earlier\n"
+            "  old line 8, new line 10: dwell of 1 s comes 40 mm later\n"
+            "2 differences\n");
+  EXPECT_THAT(diff({"--lang", "it", "a.iso", "b.iso"}).out, HasSubstr("M08 viene 20 mm prima\n"));
+  EXPECT_THAT(diff({"--lang", "it", "a.iso", "b.iso"}).out, HasSubstr("attesa di 1 s viene 40 mm dopo\n"));
+  EXPECT_EQ(json::parse(diff({"--format", "json", "a.iso", "b.iso"}).out).at("changes").at(0).at("distance"), 20.0);
 }
 
 TEST_F(IsodiffCommand, ReadsStandardInput) {

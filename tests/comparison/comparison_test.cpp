@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "interpreter/comparison/anchors.h"
 #include "tests/comparison/compared.h"
 
