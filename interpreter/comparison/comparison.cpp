@@ -351,7 +351,8 @@ class ChangeNamer {
                                             [&](const ActionDecision& each) { return each.action < begin; });
     const auto last = std::partition_point(first, run.decisions.end(),
                                            [&](const ActionDecision& each) { return each.action <= end; });
-    return {first, last};
+    return std::span(run.decisions)
+        .subspan(static_cast<std::size_t>(first - run.decisions.begin()), static_cast<std::size_t>(last - first));
   }
 
   /// An IF that one run takes and the other one does not.

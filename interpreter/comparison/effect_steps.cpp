@@ -28,9 +28,12 @@ std::vector<Effect> effects_of(const RecordedRun& run, std::size_t begin, std::s
 
 /// The length of the way up to each motion, and to the end.
 std::vector<double> lengths_of(const RecordedRun& motions) {
-  std::vector<double> lengths{0};
-  for (const MachineAction& motion : motions.actions)
-    lengths.push_back(lengths.back() + ActionPath(motions, motion).length());
+  double length = 0;
+  std::vector<double> lengths = {length};
+  for (const MachineAction& motion : motions.actions) {
+    length += ActionPath(motions, motion).length();
+    lengths.push_back(length);
+  }
   return lengths;
 }
 

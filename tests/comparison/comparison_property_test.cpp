@@ -326,7 +326,7 @@ TEST(ComparisonProperty, AnArcThatGoesOtherwiseIsNamedBesideAnyChange) {
       std::string& line = lines[new_program.lines[arc_now]];
       const double radius = std::abs(part.steps[step].center[0] - part.steps[before].to[0]) / 1000.0;
       const std::size_t center = line.find(" I");
-      line = line.substr(0, center) + fmt::format(" R{:.4f}", 1.5 * radius) + line.substr(line.find(" F"));
+      line.replace(center, line.find(" F") - center, fmt::format(" R{:.4f}", 1.5 * radius));
     }
     if (beside == Beside::Frame) lines.insert(lines.begin() + 2, "G92 X0 Y0 Z-1.5");
     const std::string text = joined(lines);
