@@ -39,11 +39,17 @@ writeFileSync(join(target, 'module.js'), `globalThis.isocncModule = ${JSON.strin
 
 // The parts of the view's page that this one has, too.
 const view = readFileSync(join(root, 'toolpath-view/src/page.html'), 'utf8');
-function part(start, end) {
+/** The element that begins with `start`, whole, with all that stands in it. */
+function part(start) {
   const from = view.indexOf(start);
-  const to = view.indexOf(end, from);
-  if (from < 0 || to < 0) throw new Error(`toolpath-view/src/page.html has no ${start}`);
-  return view.slice(from, to + end.length);
+  if (from < 0) throw new Error(`toolpath-view/src/page.html has no ${start}`);
+  const name = start.match(/^<(\w+)/)[1];
+  let open = 0;
+  for (const tag of view.slice(from).matchAll(new RegExp(`<(/?)${name}\\b[^>]*>`, 'g'))) {
+    open += tag[1] ? -1 : 1;
+    if (open === 0) return view.slice(from, from + tag.index + tag[0].length);
+  }
+  throw new Error(`toolpath-view/src/page.html does not close ${start}`);
 }
 const parts = {
   // No connection at all: that makes it true that nothing leaves the browser. The worker and its module come from module.js.
@@ -60,12 +66,12 @@ const parts = {
     "form-action 'none'",
   ].join('; '),
   icon: readFileSync(join(root, 'vscode-extension/media/icon.svg')).toString('base64'),
-  outcome: part('<p id="outcome"', '</p>'),
-  totals: part('<dl id="totals"', '</dl>'),
-  help: part('<button id="help"', '</button>'),
-  view: part('<section id="view"', '</section>'),
-  player: part('<footer', '</footer>'),
-  keys: part('<dialog id="keys"', '</dialog>'),
+  outcome: part('<p id="outcome"'),
+  totals: part('<dl id="totals"'),
+  help: part('<button id="help"'),
+  view: part('<section id="view"'),
+  player: part('<footer'),
+  keys: part('<dialog id="keys"'),
 };
 const page = readFileSync(join(here, 'src/index.html'), 'utf8').replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
 writeFileSync(join(target, 'index.html'), page);
