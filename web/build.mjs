@@ -17,19 +17,22 @@ for (const folder of ['bin', 'dist']) mkdirSync(join(target, folder), { recursiv
 for (const name of ['isocnc.mjs', 'isocnc-node.cjs', 'isocnc.wasm']) cpSync(join(made, 'bin', name), join(target, 'dist', name));
 chmodSync(join(target, 'dist/isocnc.wasm'), 0o644);
 
-/** Both loaders are the same module's: what imports glue.ts gets the one for pages. */
+/** What imports glue.ts gets the loader of a module for pages: `inside` the bundle, or beside it. */
 const glue = (inside) => ({
   name: 'glue',
   setup(bundle) {
-    bundle.onResolve({ filter: /^\.\/glue$/ }, () => (inside ? { path: join(made, 'bin/isocnc.mjs') } : { path: './isocnc.mjs', external: true }));
+    bundle.onResolve({ filter: /^\.\/glue$/ }, () => (inside ? { path: join(made, 'bin', inside) } : { path: './isocnc.mjs', external: true }));
   },
 });
+const worker = (loader, outfile) =>
+  build({ ...common, entryPoints: ['src/worker.ts'], outfile, format: 'iife', minify: true, plugins: [glue(loader)], define: { 'import.meta.url': `"file:///${loader}"` }, external: ['module'] });
 const common = { bundle: true, charset: 'utf8', target: 'es2022', logLevel: 'warning', absWorkingDir: here };
 await Promise.all([
-  build({ ...common, entryPoints: ['src/index.ts'], outfile: join(target, 'dist/index.js'), format: 'esm', external: ['node:*'], plugins: [glue(false)] }),
+  build({ ...common, entryPoints: ['src/index.ts'], outfile: join(target, 'dist/index.js'), format: 'esm', external: ['node:*'], plugins: [glue()] }),
   build({ ...common, entryPoints: ['src/command.ts'], outfile: join(target, 'dist/command.js'), format: 'esm', platform: 'node' }),
   build({ ...common, entryPoints: ['src/stdio.ts'], outfile: join(made, 'emulated/stdio.mjs'), format: 'esm', platform: 'node' }),
-  build({ ...common, entryPoints: ['src/worker.ts'], outfile: join(target, 'dist/worker.js'), format: 'iife', minify: true, plugins: [glue(true)], define: { 'import.meta.url': '"file:///isocnc.mjs"' }, external: ['module'] }),
+  worker('isocnc.mjs', join(target, 'dist/worker.js')),
+  worker('playground.mjs', join(made, 'bin/playground-worker.js')),
 ]);
 execFileSync(join(here, 'node_modules/.bin/tsc'), ['--noEmit', 'false', '--emitDeclarationOnly', '--outDir', join(target, 'types')], { cwd: here, stdio: 'inherit' });
 cpSync(join(target, 'types/index.d.ts'), join(target, 'dist/index.d.ts'));

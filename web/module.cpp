@@ -12,14 +12,10 @@
 
 #include "debugger/adapter.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/system/exit_status.h"
 #include "lsp/rpc/hosted_peer.h"
 #include "lsp/server.h"
-
-// The main() of each command, under a name of its own: see CMakeLists.txt.
-int isolint_main(int argc, char** argv);
-int isofmt_main(int argc, char** argv);
-int isorun_main(int argc, char** argv);
-int isodiff_main(int argc, char** argv);
+#include "web/commands.h"
 
 namespace isocnc::web {
 namespace {
@@ -45,13 +41,10 @@ rpc::MakePeer maker_of(std::string_view server, std::string_view language) {
 extern "C" {
 
 /// Runs the command whose name is the first argument: `isolint`, `isofmt`, `isorun` or `isodiff`. Returns the exit
-/// status.
+/// status; that of a usage error for a command that the module does not have.
 EMSCRIPTEN_KEEPALIVE int isocnc_run(int argc, char** argv) {
-  const std::string_view program = argv[0];
-  if (program == "isolint") return isolint_main(argc, argv);
-  if (program == "isofmt") return isofmt_main(argc, argv);
-  if (program == "isodiff") return isodiff_main(argc, argv);
-  return isorun_main(argc, argv);
+  const CommandMain command = command_named(argv[0]);
+  return command == nullptr ? static_cast<int>(system::ExitStatus::Failure) : command(argc, argv);
 }
 
 /// Begins a conversation with `isols` or `isodap`; `language` is en, it, or empty for the client's. Messages for the

@@ -32,9 +32,8 @@ writeFileSync(join(target, 'playground.css'), Buffer.concat([readFileSync(join(t
 rmSync(join(target, 'own.css'));
 
 // A page from a disk may fetch nothing, so that the module is in a script.
-const dist = join(made, 'npm/dist');
-const wasm = gzipSync(readFileSync(join(dist, 'isocnc.wasm')), { level: 9 }).toString('base64');
-const worker = readFileSync(join(dist, 'worker.js'), 'utf8');
+const wasm = gzipSync(readFileSync(join(made, 'bin/playground.wasm')), { level: 9 }).toString('base64');
+const worker = readFileSync(join(made, 'bin/playground-worker.js'), 'utf8');
 writeFileSync(join(target, 'module.js'), `globalThis.isocncModule = ${JSON.stringify({ wasm, worker })};\n`);
 
 // The parts of the view's page that this one has, too.
