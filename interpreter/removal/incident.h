@@ -42,6 +42,7 @@ struct Incident {
   double limit = 0;                               ///< EdgeTooShort, CutTooDeep: the depth that the tool allows, mm.
   geometry::Vec3 point = geometry::Vec3::Zero();  ///< Where it is worst; machine frame of the program, mm.
   geometry::Frame frame;                          ///< In force there; in the machine frame.
+  bool is_in_inches = false;                      ///< G70 is in force there.
   /// The Z, in that frame, with which nothing would have been met, mm; none where another Z is no help.
   std::optional<double> enough;
   /// RapidInMaterial: a shank, holder or nose was there already when the rapid began, so that all of this goes with it.

@@ -51,8 +51,8 @@ MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine
       blank_volume_(stock_.volume()),
       skin_(skin_of(stock_.spacing(), machine)) {}
 
-void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& tool, std::size_t line, double time,
-                          const geometry::Frame& frame) {
+void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& tool, const running::Event& event,
+                          double time, const geometry::Frame& frame) {
   cut_waiting();
   close_all();
   if (!by_line_.empty()) look_for_loose_pieces();
@@ -60,11 +60,11 @@ void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& to
   tool_.reset();
   // A wall of a cut is known to within a spacing.
   forms_.emplace(tool, skin_, stock_.spacing(), workpiece_.clearance);
-  stand(line, time, frame);
+  stand(event, time, frame);
 }
 
 /// Compares the mounted tool where it stands.
-void MaterialCheck::stand(std::size_t line, double time, const geometry::Frame& frame) {
+void MaterialCheck::stand(const running::Event& event, double time, const geometry::Frame& frame) {
   // Without its length, nothing on the spindle is at its place.
   const double length = forms_->tool().length;
   if (!last_path_ || !(length > 0)) return;
@@ -77,7 +77,8 @@ void MaterialCheck::stand(std::size_t line, double time, const geometry::Frame& 
   const solids::AxisPlacement at = placement_of(kinematics, kinematics::forward(kinematics, joints, length));
   last_frame_ = frame;
   frames_ = {frame};  // Nothing waits.
-  waiting_.push_back({.stretch = rest, .line = line, .frame = 0, .is_standing = true});
+  waiting_.push_back(
+      {.stretch = rest, .line = event.line, .frame = 0, .is_in_inches = event.is_in_inches, .is_standing = true});
   pieces_ = {{stock::StraightPath{at, at.origin}, 0, 0}};
   append_pieces(false);
 }
@@ -87,6 +88,7 @@ void MaterialCheck::take(const simulation::TimedEvent& event) {
     spindle_speed_ = speed->speed;
   const auto before = spindle_;
   last_line_ = event.event.line;
+  is_in_inches_ = event.event.is_in_inches;
   last_time_ = event.start + event.duration;
   spindle_ = simulation::spindle_after(event.event, spindle_, spindle_speed_);
   if (before.function != 5 && spindle_.function == 5) spindle_stopped_by_ = event.event.line;
@@ -105,7 +107,11 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::
   const bool is_feed = event.move->feed.kind != kinematics::FeedKind::Rapid;
   last_frame_ = frame;
   if (frames_.empty() || !(frames_.back() == frame)) frames_.push_back(frame);
-  waiting_.push_back({.stretch = stretch, .line = event.event.line, .frame = frames_.size() - 1, .is_feed = is_feed});
+  waiting_.push_back({.stretch = stretch,
+                      .line = event.event.line,
+                      .frame = frames_.size() - 1,
+                      .is_in_inches = event.event.is_in_inches,
+                      .is_feed = is_feed});
   divide(stretch, from, to);
   if (watcher_) show_moments(stretch);
   append_pieces(is_feed);
@@ -428,6 +434,7 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   incident.amount = outcome.depth;
   incident.point = in_machine(outcome.point);
   incident.frame = frames_[stretch.frame];
+  incident.is_in_inches = stretch.is_in_inches;
   episode.deepest_sweep = sweep;
 }
 
@@ -439,7 +446,12 @@ void MaterialCheck::note_ways(const std::vector<bool>& has_cut) {
       end_way();
       continue;
     }
-    if (!way_) way_ = {.kind = IncidentKind::CutsNothing, .line = each.line, .time = each.stretch.start, .tool = code_};
+    if (!way_)
+      way_ = {.kind = IncidentKind::CutsNothing,
+              .line = each.line,
+              .time = each.stretch.start,
+              .tool = code_,
+              .is_in_inches = each.is_in_inches};
     way_->end_line = each.line;
     way_->end_time = each.stretch.start + each.stretch.duration;
     way_->amount += each.length;
@@ -729,7 +741,8 @@ void MaterialCheck::compare_with_target() {
           .amount = region.height,
           .volume = region.volume,
           .point = in_machine(region.point),
-          .frame = last_frame_});
+          .frame = last_frame_,
+          .is_in_inches = is_in_inches_});
   }
 }
 
@@ -745,7 +758,8 @@ void MaterialCheck::look_for_loose_pieces() {
                       .amount = piece.bounds.sizes().z(),
                       .volume = piece.volume,
                       .point = in_machine(piece.bounds.center()),
-                      .frame = last_frame_};
+                      .frame = last_frame_,
+                      .is_in_inches = is_in_inches_};
     const auto cut = std::partition_point(by_line_.begin(), by_line_.end(),
                                           [&](const RemovedByLine& each) { return each.line < incident.line; });
     if (cut != by_line_.end() && cut->line == incident.line) incident.time = cut->end_time;

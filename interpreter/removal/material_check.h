@@ -29,9 +29,9 @@ class MaterialCheck {
   /// From now on, `watcher` sees the stock, also within motions. What is found stays the same.
   void watch(Watcher watcher) { watcher_ = std::move(watcher); }
 
-  /// Another tool is mounted, by a line, at a time, s, with a frame in force. What it is in where it is mounted is
+  /// Another tool is mounted, by an event, at a time, s, with a frame in force. What it is in where it is mounted is
   /// found there.
-  void mount(const execution::ToolCode& code, const CuttingTool& tool, std::size_t line, double time,
+  void mount(const execution::ToolCode& code, const CuttingTool& tool, const running::Event& event, double time,
              const geometry::Frame& frame);
   /// Takes a stretch of motion, with its event and the frame in force.
   void take(const motion::Stretch& stretch, const simulation::TimedEvent& event, const geometry::Frame& frame);
@@ -92,6 +92,7 @@ class MaterialCheck {
     motion::Stretch stretch;
     std::size_t line = 0;
     std::size_t frame = 0;  ///< Index of the frame in force.
+    bool is_in_inches = false;
     bool is_feed = false;
     bool is_standing = false;  ///< A tool where it is mounted.
     double length = 0;         ///< Of the tip's path, mm.
@@ -121,7 +122,7 @@ class MaterialCheck {
   };
   using IncidentKey = std::pair<IncidentKind, ToolPart>;
 
-  void stand(std::size_t line, double time, const geometry::Frame& frame);
+  void stand(const running::Event& event, double time, const geometry::Frame& frame);
   void append_pieces(bool is_feed);
   double end_rim(const TipPath& piece) const;
   void show_moments(const motion::Stretch& stretch);
@@ -164,6 +165,7 @@ class MaterialCheck {
   std::optional<std::size_t> spindle_stopped_by_;
   std::size_t last_line_ = 0;  ///< Of the events.
   double last_time_ = 0;
+  bool is_in_inches_ = false;  ///< At that line.
   geometry::Frame last_frame_;
   std::optional<kinematics::Path> last_path_;  ///< Of the last stretch.
   double last_place_ = 0;                      ///< Path parameter to which it has come.

@@ -179,7 +179,7 @@ static OrderedJson json_of(const RunWarning& warning, Language language) {
   return {{"line", warning.line + 1},
           {"code", def.code},
           {"name", def.name},
-          {"message", dialect::message(warning.id, language, {.values = warning.values})}};
+          {"message", syntax::message(finding_of(warning), {}, language)}};
 }
 
 static OrderedJson json_of(const State& state) {

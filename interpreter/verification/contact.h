@@ -32,7 +32,8 @@ struct Contact {
   /// Of the obstacle, at that place; mm, machine frame of the program: on a table that turns it turns with the
   /// workpiece.
   geometry::Vec3 point = geometry::Vec3::Zero();
-  geometry::Frame frame;  ///< In force at `line`; in the machine frame.
+  geometry::Frame frame;      ///< In force at `line`; in the machine frame.
+  bool is_in_inches = false;  ///< G70 is in force there: it is told in inches.
   Mover mover = kSpindle;
   std::int32_t mistake = -1;  ///< Equal for contacts of the same mover, with the same tool, with the same obstacle.
   BodyDescription described;  ///< Where the obstacle is described.

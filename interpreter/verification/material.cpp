@@ -137,6 +137,7 @@ Contact contact_of(const removal::Incident& incident, const Scene& scene) {
   contact.distance = incident.kind == IncidentKind::NearMaterial ? incident.amount : -incident.amount;
   contact.point = incident.point;
   contact.frame = incident.frame;
+  contact.is_in_inches = incident.is_in_inches;
   contact.is_of_material = true;
   contact.is_of_edge = incident.kind == IncidentKind::EdgeTooShort;
   contact.limit = incident.limit;

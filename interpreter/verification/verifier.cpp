@@ -48,7 +48,7 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
 void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
   if (stretch.ends_move) ++certificate_.motions;
   stretches_.push_back(stretch);
-  waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1});
+  waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1, .is_in_inches = event.event.is_in_inches});
   if (material_) material_->take(stretch, event, frames_.back());
   if (stretches_.size() == kBatch) examine_waiting();
 }
@@ -56,7 +56,7 @@ void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent
 void Verifier::take(const simulation::TimedEvent& event) {
   if (const auto* const frame = std::get_if<running::FrameEvent>(&event.event.what)) frames_.push_back(frame->in_force);
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what))
-    mount(tool->tool, event.event.line, event.start + event.duration);
+    mount(tool->tool, event.event, event.start + event.duration);
   if (material_) material_->take(event);
 }
 
@@ -76,23 +76,23 @@ motion::Stretch rest_after(const motion::Stretch& stretch, const kinematics::Kin
   return rest;
 }
 
-void Verifier::mount(const execution::ToolCode& tool, std::size_t line, double time) {
+void Verifier::mount(const execution::ToolCode& tool, const running::Event& event, double time) {
   examine_waiting();
   log_.close_all();
   tool_ = tool;
   const MountedTool mounted = mounted_tool(scene_, machine_, tool);
   bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted, origin_);
-  if (material_) material_->mount(tool, cutting_tool(scene_, mounted), line, time, frames_.back());
+  if (material_) material_->mount(tool, cutting_tool(scene_, mounted), event, time, frames_.back());
   // What the tool touches where it is mounted.
   if (last_) {
     stretches_.push_back(rest_after(*last_, machine_.motion.kinematics, mounted.length, time));
-    waiting_.push_back({.line = line, .frame = frames_.size() - 1});
+    waiting_.push_back({.line = event.line, .frame = frames_.size() - 1, .is_in_inches = event.is_in_inches});
   }
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;
   if ((has_length && has_shape) || !known_gaps_.insert(tool).second) return;
   certificate_.gaps.push_back({.gap = has_length ? Gap::ToolWithoutShape : Gap::ToolWithoutLength,
-                               .line = line,
+                               .line = event.line,
                                .name = dialect::GivenName::of({mounted.name, mounted.name})});
 }
 
@@ -115,7 +115,7 @@ void Verifier::examine_waiting() {
     const auto place_of = [&](std::size_t stretch) -> StretchPlace {
       const std::size_t index = i * kPart + stretch;
       const WaitingStretch& waiting = waiting_[index];
-      return {examined_ + index, waiting.line, frames_[waiting.frame]};
+      return {examined_ + index, waiting.line, frames_[waiting.frame], waiting.is_in_inches};
     };
     log_.take(parts[i].encounters, place_of, bodies_, tool_);
     for (const std::size_t undecided : parts[i].undecided) {
