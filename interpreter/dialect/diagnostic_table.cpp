@@ -2340,13 +2340,13 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Warning,
      .evidence = Evidence::Stock,
      .section = "I.3.4",
-     .arguments = {"height", "x", "y", "z", "time", "volume"},
+     .arguments = {"height", "x", "y", "z", "tolerance", "volume"},
      .title = {.en = "Material left on the finished part", .it = "Materiale rimasto sul pezzo finito"},
-     .message =
-         {.en = "material is left on the finished part: {height} {unit} high at X{x} Y{y} Z{z}, {volume} cm3 in "
-                "one piece",
-          .it = "sul pezzo finito resta materiale: alto {height} {unit} in X{x} Y{y} Z{z}, {volume} cm3 in un solo "
-                "punto"},
+     .message = {.en =
+                     "material is left on the finished part: up to {height} {unit} beyond its tolerance of {tolerance} "
+                     "{unit}, at X{x} Y{y} Z{z}; {volume} cm3 beyond it in one piece",
+                 .it = "sul pezzo finito resta materiale: fino a {height} {unit} oltre la tolleranza di {tolerance} "
+                       "{unit}, in X{x} Y{y} Z{z}; {volume} cm3 oltre la tolleranza in un solo punto"},
      .explanation =
          {.en = "At the end of the program more material stands on the finished part of the setup (target) than its "
                 "tolerance allows. The finding stands at the line that has cut last near it, or at the end of the "
@@ -2446,38 +2446,39 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                        "on is not verified",
                  .it = "la macchina simulata si ferma a questo errore, come farebbe il controllo: che cosa farebbe da "
                        "qui in poi non è verificato"},
-     .causes = {{.cause = "tool-without-shape",
-                 .message = {.en = "what {who} would hit is not verified: its shape is not known",
-                             .it = "che cosa urterebbe {who} non è verificato: la sua forma non è nota"},
-                 .wrong = "[!M06 T101002!]\nG00 X100 Y100 Z50\nM02\n"},
-                {.cause = "tool-without-length",
-                 .message = {.en = "what {who} would hit is not verified: its length is not known",
-                             .it = "che cosa urterebbe {who} non è verificato: la sua lunghezza non è nota"},
-                 .wrong = "[!M06 T101003!]\nG00 X100 Y100 Z50\nM02\n"},
-                {.cause = "undecided",
-                 .message = {.en = "whether this motion hits anything could not be decided",
-                             .it = "non è stato possibile decidere se questo movimento urta qualcosa"},
-                 .wrong = "M06 T101001\n[!G00 X2000000!]\nM02\n"},
-                {.cause = "resolution-too-fine",
-                 .message = {.en = "the material is not verified: at the resolution of the setup it takes more memory "
-                                   "than there is for it; {spacing} mm would fit",
-                             .it = "il materiale non è verificato: con la risoluzione dell'attrezzaggio occupa più "
-                                   "memoria di quella prevista; con {spacing} mm ci sta"},
-                 .wrong = ""},
-                {.cause = "other-paths",
-                 .message = {.en = "where this jump leads with other values of VGPL is not verified (paths that were "
-                                   "run: {paths})",
-                             .it = "dove porta questo salto con altri valori di VGPL non è verificato (percorsi "
-                                   "eseguiti: {paths})"},
-                 .wrong = "IF VGPL = 1 GOTO N90\nIF VGPL = 2 GOTO N90\nIF VGPL = 3 GOTO N90\nIF VGPL = 4 GOTO N90\n"
-                          "IF VGPL = 5 GOTO N90\nIF VGPL = 6 GOTO N90\nIF VGPL = 7 GOTO N90\n"
-                          "[!IF VGPL = 8 GOTO N90!]\nG04 P1\nN90 M02\n"},
-                {.cause = "other-registers",
-                 .message = {.en = "where this jump leads with other values of {who} is not verified: the program does "
-                                   "not set {who} before",
-                             .it = "dove porta questo salto con altri valori di {who} non è verificato: il programma "
-                                   "non assegna prima {who}"},
-                 .wrong = "[!IF V3 = 1 GOTO N90!]\nG04 P1\nN90 M02\n"}},
+     .causes =
+         {{.cause = "tool-without-shape",
+           .message = {.en = "what {who} would hit is not verified: its shape is not known",
+                       .it = "che cosa urterebbe {who} non è verificato: la sua forma non è nota"},
+           .wrong = "[!M06 T101002!]\nG00 X100 Y100 Z50\nM02\n"},
+          {.cause = "tool-without-length",
+           .message = {.en = "what {who} would hit is not verified: its length is not known",
+                       .it = "che cosa urterebbe {who} non è verificato: la sua lunghezza non è nota"},
+           .wrong = "[!M06 T101003!]\nG00 X100 Y100 Z50\nM02\n"},
+          {.cause = "undecided",
+           .message = {.en = "whether this motion hits anything could not be decided",
+                       .it = "non è stato possibile decidere se questo movimento urta qualcosa"},
+           .wrong = "M06 T101001\n[!G00 X2000000!]\nM02\n"},
+          {.cause = "resolution-too-fine",
+           .message = {.en = "the material is not verified: at the resolution that is asked for it takes more memory "
+                             "than there is for it; {spacing} mm would fit",
+                       .it = "il materiale non è verificato: con la risoluzione richiesta occupa più "
+                             "memoria di quella prevista; con {spacing} mm ci sta"},
+           .wrong = ""},
+          {.cause = "other-paths",
+           .message = {.en = "where this jump leads with other values of VGPL is not verified (paths that were "
+                             "run: {paths})",
+                       .it = "dove porta questo salto con altri valori di VGPL non è verificato (percorsi "
+                             "eseguiti: {paths})"},
+           .wrong = "IF VGPL = 1 GOTO N90\nIF VGPL = 2 GOTO N90\nIF VGPL = 3 GOTO N90\nIF VGPL = 4 GOTO N90\n"
+                    "IF VGPL = 5 GOTO N90\nIF VGPL = 6 GOTO N90\nIF VGPL = 7 GOTO N90\n"
+                    "[!IF VGPL = 8 GOTO N90!]\nG04 P1\nN90 M02\n"},
+          {.cause = "other-registers",
+           .message = {.en = "where this jump leads with other values of {who} is not verified: the program does "
+                             "not set {who} before",
+                       .it = "dove porta questo salto con altri valori di {who} non è verificato: il programma "
+                             "non assegna prima {who}"},
+           .wrong = "[!IF V3 = 1 GOTO N90!]\nG04 P1\nN90 M02\n"}},
      .explanation =
          {.en = "The machine was asked (--verify), and could not follow or compare everything: mistakes that only a "
                 "run shows, such as a joint outside its travel or a clamp that is hit, may go unreported from this "

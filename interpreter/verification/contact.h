@@ -39,7 +39,7 @@ struct Contact {
   BodyDescription described;  ///< Where the obstacle is described.
   bool is_of_material = false;
   bool is_of_edge = false;       ///< W157: because the edge is too short.
-  double limit = 0;              ///< W157: how deep the tool may cut, mm.
+  double limit = 0;              ///< W157: how deep the tool may cut; W156: the tolerance; mm.
   std::optional<double> volume;  ///< W156, W161: of what is left or comes free, mm^3.
   std::optional<double> enough;  ///< E150, E151: the Z, in `frame`, with which nothing would have been met, if any; mm.
   /// E150, E151, W154: the line that cut last what is met. E158: that which stopped the spindle. From 0.

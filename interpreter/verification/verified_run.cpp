@@ -54,6 +54,7 @@ static syntax::Finding finding_about_material(const Contact& contact) {
                           .names = {contact.who, contact.whom}};
   if (contact.id == "cuts-nothing"_diag) finding.values[0] = contact.is_in_inches ? amount : std::round(amount);
   if (contact.id == "cut-too-deep"_diag) finding.values[5] = lengths.of(contact.limit);
+  if (contact.id == "material-left"_diag) finding.values[4] = lengths.of(contact.limit);
   if (contact.volume) finding.values[5] = rounded(*contact.volume / 1000, 0.01);
   if (contact.enough) {
     finding.values[5] = lengths.at_least(*contact.enough);
@@ -172,9 +173,7 @@ VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier,
   if (result.ending == running::Ending::Until) verified.certificate->ended_before = result.line;
   verified.outcome.has_scene = true;
   verified.outcome.has_stock = verifier.material() != nullptr;
-  if (verified.material)
-    for (const auto& [line, end_time, removed] : verified.material->by_line)
-      verified.outcome.removed.push_back({line, removed.volume, removed.depth, removed.width});
+  if (verified.material) verified.outcome.removed = verified.material->by_line;
   add_findings(verified.outcome, verified.contacts, *verified.certificate, text);
   return verified;
 }

@@ -34,15 +34,14 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
     certificate_.touching.emplace_back(scene.machine[each.moving].name, scene.machine[each.other].name);
   std::optional<removal::Workpiece> workpiece = workpiece_of(scene, origin, material);
   if (!workpiece) return;
+  if (workpiece->window) certificate_.window = workpiece->window;
+  // Where many programs are verified, the window may be beside the blank of one.
+  if (stock::bounds_of(workpiece->blank, workpiece->window).isEmpty()) return;
   if (const auto coarser = coarser_spacing(*workpiece)) {
     certificate_.gaps.push_back({.gap = Gap::ResolutionTooFine, .line = 0, .spacing = *coarser});
     return;
   }
   material_.emplace(*std::move(workpiece), machine, work_together_);
-  constexpr double kDiagonal = 1.4142135623730951;
-  if (material_->workpiece().window) certificate_.window = material_->workpiece().window;
-  certificate_.soft_disc = kDiagonal * material_->stock().spacing() + 2 * material_->skin();
-  certificate_.soft_depth = material_->skin() + double{stock::Tile::kTouch};
 }
 
 void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
@@ -143,6 +142,9 @@ void Verifier::finish() {
 
 void Verifier::finish_material() {
   material_->finish();
+  constexpr double kDiagonal = 1.4142135623730951;
+  certificate_.soft_disc = kDiagonal * material_->stock().spacing() + 2 * material_->skin();
+  certificate_.soft_depth = material_->skin() + double{stock::Tile::kTouch};
   std::int32_t mistakes = 0;
   for (const Contact& contact : contacts_) mistakes = std::max(mistakes, contact.mistake + 1);
   // One slip repeats with a tool at one height, or until the spindle turns.

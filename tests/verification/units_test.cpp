@@ -107,8 +107,8 @@ TEST(Units, OfMaterialThatIsLeft) {
   bench.box("part", {300, 100, 0}, {400, 200, 30}, BodyRole::Target);
   const VerifiedRun run = bench.cut("G70\nG00 X9.8425 Y5.9055 Z3\nZ1.1811\nG01 X19.685 F80\nG00 Z3\n");
   EXPECT_THAT(said(run), HasSubstr("W156"));
-  EXPECT_THAT(said(run), HasSubstr(" in high at X"));
-  EXPECT_THAT(said(run), HasSubstr(" Z1.5748, "));
+  EXPECT_THAT(said(run), HasSubstr(" in beyond its tolerance of 0 in, at X"));
+  EXPECT_THAT(said(run), HasSubstr(" Z1.5748; "));
 }
 
 TEST(Units, OfTheEndOfATravel) {
