@@ -96,7 +96,9 @@ TEST_F(StockOfRuns, IsRefusedWithItsPlaceWhereItIsNone) {
   other[8] = 7;  // The version follows the first eight bytes.
   folder_.write("other.stock", other);
   std::string damaged = good;
-  damaged[damaged.size() - 12] = static_cast<char>(damaged[damaged.size() - 12] ^ 1);  // Of a height.
+  const std::size_t height = good.rfind(std::string("\0\0\0\xC1", 4));  // -8 mm; now a hair lower.
+  ASSERT_NE(height, std::string::npos);
+  damaged[height] = 1;
   folder_.write("damaged.stock", damaged);
   const auto said_of = [&](const std::string& stock) {
     folder_.write("second.setup.json", R"({"stock": )" + stock + "}");
@@ -197,10 +199,12 @@ TEST_F(StockOfRuns, IsCutByIsolintAsByIsorun) {
   };
   folder_.write("rapid.iso", "M06 T101001\nS12000 M03\nG00 X50 Y50 Z5\nZ-8\nX150\nZ50\nM05\nM02\n");
   folder_.write("rapid.setup.json", R"({"stock": {"box": [[0, 0, -20], [200, 100, 0]]}, "resolution": 0.5})");
-  EXPECT_THAT(isolint({"--verify", "rapid.iso"}).out, AllOf(HasSubstr("E150"), HasSubstr("nor wider than 0.88 mm")));
-  EXPECT_THAT(isolint({"--verify", "--resolution", "0.2", "rapid.iso"}).out, HasSubstr("nor wider than 0.38 mm"));
-  const std::string beside = isolint({"--verify", "--window", "160,60,190,90", "rapid.iso", "first.iso"}).out;
-  EXPECT_THAT(beside, AllOf(testing::Not(HasSubstr("E150")), HasSubstr("the material outside X160 to X190")));
+  EXPECT_THAT(isolint({"--verify", "rapid.iso"}).out, HasSubstr("E150"));
+  EXPECT_THAT(isolint({"--verify", "rapid.iso"}).err, HasSubstr("nor wider than 0.88 mm"));
+  EXPECT_THAT(isolint({"--verify", "--resolution", "0.2", "rapid.iso"}).err, HasSubstr("nor wider than 0.38 mm"));
+  const CommandResult beside = isolint({"--verify", "--window", "160,60,190,90", "rapid.iso", "first.iso"});
+  EXPECT_EQ(beside.status, 0) << beside.out;
+  EXPECT_THAT(beside.err, HasSubstr("the material outside X160 to X190"));
   // Beside the blank of one of them.
   EXPECT_EQ(isolint({"--verify", "--window", "500,0,600,100", "rapid.iso"}).status, 0);
   const CommandResult wrong = isolint({"--verify", "--resolution", "0.009", "rapid.iso"});
