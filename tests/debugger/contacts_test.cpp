@@ -136,7 +136,7 @@ TEST_F(Contacts, AreToldInTheUnitOfTheirBlock) {
   turn_on(client);
   client.run("configurationDone");
   const Json info = client.request("exceptionInfo", {{"threadId", 1}});
-  EXPECT_THAT(info.at("description").get<std::string>(), HasSubstr("hits post 1: 1.1811 in deep at X"));
+  EXPECT_THAT(info.at("description").get<std::string>(), HasSubstr("hits post 1: 0.7874 in deep at X"));
 }
 
 TEST_F(Contacts, StopEachOnceForwardAndBackward) {
