@@ -179,6 +179,7 @@ def make_parser():
     add("--peck-clearance", type=non_negative, default=0.25, metavar="MM", help="G73, G83: between pecks, default=0.25")
     add("--arcs", choices=["center", "radius"], default="center", help="how arcs up to 120 degrees are written")
     add("--safe-z", type=float, metavar="Z", help="where B and C may turn, in the workpiece frame, mm")
+    add("--faces", choices=["g29", "g28"], default="g29", help="g29, or g24 with other axes; g28: from where they start")
     add("--rotary", choices=["tool", "part"], default="tool", help="what A, B and C of the job turn")
     add("--all-jobs", action="store_true", help="all jobs of the document, the later ones as faces of the first")
     add("--home", type=triple, metavar="X,Y,Z", help="where to go at the end, in machine coordinates")
@@ -333,6 +334,7 @@ class State:
     face: Face = field(default_factory=Face)
     wanted: Face = field(default_factory=Face)
     tilted: bool = False  # By a face.
+    zero: dict = field(default_factory=dict)  # Where a G28 has its origin, in the face as FreeCAD counts it.
 
 
 class Translator:
@@ -369,9 +371,12 @@ class Translator:
         return self.digits(value / MM_PER_INCH if self.options.inches else value, self.options.precision)
 
     def coordinate(self, axis, value):
-        return self.length(value) if axis in LINEAR else self.digits(value, self.options.precision)
+        if axis in LINEAR:
+            return self.length(value - self.state.zero.get(axis, 0.0))
+        return self.digits(value, self.options.precision)
 
     def rounded(self, axis, value):
+        """As the control will read it: for distances, as a G28 may have moved its origin."""
         unit = MM_PER_INCH if self.options.inches and axis in LINEAR else 1.0
         return float(self.coordinate(axis, value)) * unit
 
@@ -691,7 +696,8 @@ class Translator:
         if options.safe_z is None:
             self.fail("for faces, say with --safe-z how high the tool goes before B and C turn")
         b, c, plain = self.told(tilt_of, state.wanted)
-        above = state.wanted.to_workpiece(self.approach_of())
+        start = self.approach_of()
+        above = state.wanted.to_workpiece(start)
         if above[2] > options.safe_z:
             self.fail(f"--safe-z {options.safe_z:g} is below the start of the face, Z{above[2]:.3f}")
         self.rapid({"Z": options.safe_z})
@@ -701,18 +707,27 @@ class Translator:
         self.rapid({"Z": above[2]})
         at, i, j, k = state.wanted.origin, state.wanted.i, state.wanted.j, state.wanted.k
         words = [axis + self.length(value) for axis, value in zip(LINEAR, at)]
-        if plain:
-            words += [f"B{self.digits(b, 6)}", f"C{self.digits(c, 6)}"]
+        if options.faces == "g28":
+            name, words = "G28", self.versors("XYZIJKPQR", i + j + k)
+            state.zero = dict(zip(LINEAR, start))
+        elif plain:
+            name, words = "G29", [*words, f"B{self.digits(b, 6)}", f"C{self.digits(c, 6)}"]
         else:
-            words += [letter + self.digits(value, 9) for letter, value in zip("ABCIJKPQR", i + j + k)]
-        self.line(" ".join(["G29" if plain else "G24", *words]))
+            name, words = "G24", words + self.versors("ABCIJKPQR", i + j + k)
+        self.line(" ".join([name, *words]))
         state.face, state.tilted = state.wanted, True
         self.forget()
+
+    def versors(self, letters, values):
+        """The components that are not 0, which the control assumes for the others."""
+        texts = [(letter, self.digits(value, 9)) for letter, value in zip(letters, values)]
+        return [letter + text for letter, text in texts if text != "0"]
 
     def leave_face(self):
         if self.state.face.is_workpiece():
             return
         self.line("G27")
+        self.state.zero = {}
         self.state.face = Face()
         self.forget()
         self.rapid({"Z": self.options.safe_z})
@@ -915,7 +930,7 @@ class Translator:
         if options.arcs == "radius" and sweep <= math.radians(120):
             extra = [f"R{self.length(math.dist(start, middle))}"]
         else:
-            extra = sorted(letter + self.length(value) for letter, value in zip(plane[1], center))
+            extra = sorted(letter + self.coordinate(axis, value) for letter, axis, value in zip(plane[1], plane[0], center))
         return self.move(number, target, extra, always=True)
 
     def halfway(self, number, target, center, sweep):

@@ -78,12 +78,12 @@ class Jobs(unittest.TestCase):
         )
 
     def test_isolint_finds_nothing(self):
-        for more in ("", "--modal --axis-modal --line-numbers", "--inches", "--arcs radius --home 0,0,0"):
+        for more in ("", "--modal --axis-modal --line-numbers", "--inches", "--arcs radius --home 0,0,0", "--faces g28"):
             with self.subTest(more):
                 self.assertEqual(findings_of({name: text for name, _, _, text in self.texts(more)}), "")
 
     def test_the_path_is_that_of_freecad(self):
-        for more in ("", "--modal --axis-modal --line-numbers --no-comments", "--inches", "--arcs radius", "--precision 5"):
+        for more in ("", "--modal --axis-modal --line-numbers --no-comments", "--inches", "--arcs radius", "--precision 5", "--faces g28"):
             unit = 1.5 * DIGIT["in" if "inches" in more else "mm"] * (0.01 if "5" in more else 1)
             for name, data, arguments, text in self.texts(more):
                 with self.subTest(name, more=more):
@@ -323,7 +323,8 @@ class Faces(unittest.TestCase):
             x, y = x * math.cos(math.radians(c)) - y * math.sin(math.radians(c)), x * math.sin(math.radians(c)) + y * math.cos(math.radians(c))
             y, z = y * math.cos(math.radians(a)) - z * math.sin(math.radians(a)), y * math.sin(math.radians(a)) + z * math.cos(math.radians(a))
             self.assertLess(math.dist((x, y, z), (0, 0, 1)), 1e-9)
-            text = post([["G0", {"A": a}], ["G0", {"C": c}], *self.MOVES], self.SAFE + " --rotary part --precision 6")
+            more = rng.choice(["", " --faces g28"])
+            text = post([["G0", {"A": a}], ["G0", {"C": c}], *self.MOVES], self.SAFE + " --rotary part --precision 6" + more)
             found = events.of_program(programs / "isorun", text)
             path = FreeCadPath({"G54": ORIGIN}, tools_of(USUAL), safe_z=200.0)
             at = {"origin": face.origin, "i": face.i, "j": face.j, "k": face.k}
