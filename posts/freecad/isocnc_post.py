@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Post-processor of FreeCAD's Path (CAM) workbench for ISOCNC: docs/posts.md.
 
 In FreeCAD: copy this file into the folder of macros, and choose `isocnc` as the job's post-processor.
