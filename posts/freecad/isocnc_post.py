@@ -291,7 +291,7 @@ def face_of_part(angles):
 
 
 def tilt_of(face):
-    """B and C that turn the tool along the normal of a face, and whether a G29 with them has its axes."""
+    """B and C of the normal of a face, and whether a G29 with them has its axes."""
     j = face.j
     if abs(j[2]) < 1e-9:
         c = math.degrees(math.atan2(-j[0], j[1]))
@@ -701,8 +701,10 @@ class Translator:
             self.fail(f"--safe-z {options.safe_z:g} is below the start of the face, Z{above[2]:.3f}")
         self.rapid({"Z": options.safe_z})
         self.rapid({"X": above[0], "Y": above[1]})
-        if None in (state.at["B"], state.at["C"]) or max(abs(state.at["B"] - b), abs(state.at["C"] - c)) > 1e-9:
-            self.rapid({"B": b, "C": c})
+        # A face that looks up does not turn the tool, however its axes lie.
+        turn = {"B": b, "C": c} if abs(b) > 1e-9 else dict.fromkeys(ROTARY, 0.0)
+        if any(self.differs(axis, value) for axis, value in turn.items()):
+            self.rapid(turn)
         self.rapid({"Z": above[2]})
         at, i, j, k = state.wanted.origin, state.wanted.i, state.wanted.j, state.wanted.k
         words = [axis + self.length(value) for axis, value in zip(LINEAR, at)]
@@ -860,7 +862,7 @@ class Translator:
 
     def arc(self, number, words):
         state = self.state
-        first, second, normal, first_center, second_center, third_center = PLANES[state.plane]
+        first, second, _, first_center, second_center, _ = PLANES[state.plane]
         self.allow(words, AXES + "IJKRPF")
         if words.get("P", 1.0) != 1.0:
             self.fail("arcs of more than one turn have no counterpart")
@@ -876,8 +878,7 @@ class Translator:
         if "R" in words:
             center = self.center_of_radius(start, end, words, clockwise)
         else:
-            if words.get(third_center, 0.0) and not state.absolute_centers:
-                self.fail(f"{third_center} is no coordinate of a center in G{state.plane}")
+            # FreeCAD adds half the rise of a helix along the normal, where the center may lie anywhere.
             if not {first_center, second_center} & set(words):
                 self.fail("the arc has neither center nor radius")
             if state.absolute_centers:
@@ -1032,9 +1033,16 @@ def base_of(item):
         chain.append(base)
 
 
+def is_active(item):
+    return all(getattr(each, "Active", True) for each in base_of(item))
+
+
 def operations_of_objects(items, face=None):
     operations = []
     for item in items:
+        if is_job(item):
+            operations += operations_of_jobs([item])
+            continue
         if hasattr(item, "Group") and not hasattr(item, "ToolController"):  # A compound.
             operations += operations_of_objects([each for each in item.Group if hasattr(each, "Path")], face)
             continue
@@ -1048,7 +1056,7 @@ def operations_of_objects(items, face=None):
                 commands=[(command.Name, dict(command.Parameters)) for command in item.Path.Commands],
                 coolant=str(coolant),
                 face=face,
-                active=all(getattr(each, "Active", True) for each in chain),
+                active=is_active(item),
             )
         )
     return operations
@@ -1069,11 +1077,21 @@ def placement_of(job):
 
 
 def operations_of_document(document):
-    """All jobs of a document. The model of each later job is turned so that its face looks up; where it lies tells the frame."""
     jobs = [item for item in document.Objects if is_job(item)]
     if not jobs:
         raise PostError("the document has no job")
-    operations, tool_before = [], None
+    return operations_of_jobs(jobs)
+
+
+def operations_of_jobs(jobs):
+    """The model of each job but the first is turned so that its face looks up; where it lies tells the frame."""
+    fixtures = list(jobs[0].Fixtures)
+    for job in jobs:
+        if len(job.Fixtures) > 1 or list(job.Fixtures) != fixtures:
+            raise PostError(f"{job.Label}: several jobs, or a job as a whole, have one fixture and the same")
+    # As FreeCAD itself does, first up above the stock.
+    above = jobs[0].Stock.Shape.BoundBox.ZMax + jobs[0].SetupSheet.ClearanceHeightOffset.Value
+    operations, tool_before = [Operation(name, [(name, {}), ("G0", {"Z": above})]) for name in fixtures], None
     for job in jobs:
         face = None
         if job is not jobs[0]:
@@ -1082,6 +1100,8 @@ def operations_of_document(document):
             face = face_of_axes(tuple(place.Base), *axes)
         for item in job.Operations.Group:
             controller = controller_of(item)
+            if not is_active(item):
+                continue
             if controller is not None and controller is not tool_before:
                 operations += operations_of_objects([controller], face)
                 tool_before = controller

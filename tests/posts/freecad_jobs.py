@@ -17,6 +17,7 @@ from FreeCAD import Rotation, Vector
 from PathScripts import (
     PathCustom,
     PathDressupHoldingTags,
+    PathDressupRampEntry,
     PathDrilling,
     PathEngrave,
     PathHelix,
@@ -108,6 +109,23 @@ def make_helix():
     return [job]
 
 
+def make_ramp():
+    """A contour whose ways down are helices."""
+    plate = Part.makeBox(80, 50, 10)
+    plate = plate.makeFillet(12, [edge for edge in plate.Edges if abs(edge.Length - 10) < 1e-6])
+    job = new_job(plate, "Ramp", tool=6)
+    profile = PathProfile.Create("Profile")
+    FreeCAD.ActiveDocument.recompute()
+    ramp = FreeCAD.ActiveDocument.addObject("Path::FeaturePython", "RampEntryDressup")
+    dressup = PathDressupRampEntry.ObjectDressup(ramp)
+    job.Proxy.addOperation(ramp, profile)
+    ramp.Base = profile
+    dressup.setup(ramp)
+    ramp.Method, ramp.Angle = "Helix", 6
+    job.Operations.Group = [ramp]
+    return [job]
+
+
 def make_surface():
     """A barrel, whose sections FreeCAD cuts and turns into a path: PathSurface takes OpenCAMLib, which Debian has not."""
     barrel = Part.makeCylinder(60, 80, Vector(40, 0, -40), Vector(0, 1, 0))
@@ -177,6 +195,10 @@ def objects_of(job, jobs):
 def kept(jobs):
     """A text with a command on each line."""
     operations = []
+    if len(jobs) > 1:
+        (fixture,) = jobs[0].Fixtures
+        above = jobs[0].Stock.Shape.BoundBox.ZMax + jobs[0].SetupSheet.ClearanceHeightOffset.Value
+        operations.append(json.dumps({"label": fixture, "commands": [[fixture, {}], ["G0", {"Z": above}]]}))
     for job in jobs:
         face = None
         if job is not jobs[0]:
@@ -197,6 +219,8 @@ def make(name, folder, post):
         assert job.Operations.Group, f"{name} has no operation"
     arguments = ARGUMENTS.get(name, USUAL)
     post.export(objects_of(jobs[0], jobs), str(folder / f"{name}.iso"), arguments)
+    if len(jobs) == 1:
+        post.export(jobs, str(folder / f"{name}.job.iso"), arguments)
     version = ".".join(FreeCAD.Version()[:2]) + "." + FreeCAD.Version()[2].split()[0]
     head = {"made": f"by FreeCAD {version}, tests/posts/freecad_jobs.py", "arguments": arguments}
     (folder / f"{name}.json").write_text(json.dumps(head)[:-1] + ', "operations": ' + kept(jobs) + "}\n")

@@ -153,6 +153,7 @@ class FreeCadPath:
             turn = (math.degrees(math.atan2(-axes[0][2], k[2])), math.degrees(math.atan2(-axes[1][0], axes[1][1])))
         else:
             turn = (math.degrees(math.atan2(math.hypot(k[0], k[1]), k[2])), math.degrees(math.atan2(k[1], k[0])))
+        turn = (0.0, 0.0) if abs(k[2] - 1) < 1e-12 else turn
         self.go("rapid", self.here(), turn)
         self.to_axis("rapid", 2, point[2])
         self.frame = (tuple(face["origin"]), axes)

@@ -74,7 +74,7 @@ class Jobs(unittest.TestCase):
 
     def test_all_kinds_are_there(self):
         self.assertEqual(
-            [path.stem for path in JOBS], ["drilling", "engraving", "faces", "helix", "pocket", "profile", "surface"]
+            [path.stem for path in JOBS], ["drilling", "engraving", "faces", "helix", "pocket", "profile", "ramp", "surface"]
         )
 
     def test_isolint_finds_nothing(self):
@@ -192,7 +192,6 @@ class Refused(unittest.TestCase):
         ([["G2", {"X": 10, "Y": 0, "F": 5}]], "neither center nor radius"),
         ([["G2", {"X": 10, "Y": 0, "R": 4, "F": 5}]], "too small"),
         ([["G2", {"X": 0, "Y": 0, "R": 4, "F": 5}]], "full turn"),
-        ([["G2", {"X": 10, "I": 5, "K": 2, "F": 5}]], "K is no coordinate"),
         ([["G3", {"X": 0, "I": 5, "P": 3, "F": 5}]], "more than one turn"),
         ([["G84", {"X": 0, "Z": -5, "R": 2, "F": 5}]], "tapping"),
         ([["G76", {}]], "cycle has no counterpart"),
@@ -287,6 +286,10 @@ class Options(unittest.TestCase):
         self.assertIn("G92 X10 Y20 Z-5\nG00 X5 Y5 Z20\n", text)
         self.assertNotIn("G92", post([], "--origin machine --head 1 --holder 1"))
 
+    def test_half_the_rise_of_a_helix_is_no_center(self):
+        text = post([["G3", {"X": 10, "Y": 0, "Z": 10, "I": 5, "J": 0, "K": -5, "F": 5}]])
+        self.assertIn("G03 X10 Y0 Z10 I5 J0 F300\n", text)
+
     def test_home_is_reached_from_above(self):
         text = post([], USUAL + " --home 0,10,-20")
         self.assertTrue(text.endswith("M05\nG92 X0 Y0 Z0\nG00 Z-20\nG00 X0 Y10\nM02\n"), text)
@@ -332,6 +335,11 @@ class Faces(unittest.TestCase):
             expected = path.run([{"commands": start}, {"commands": self.MOVES, "face": at}])
             self.assertEqual(events.difference(expected, found, 2e-6), "")
             self.assertEqual(findings_of({"part": text}), "")
+
+    def test_a_face_that_looks_up_does_not_turn_the_tool(self):
+        text = post([["G29", {"X": 50, "Y": 40, "Z": 5, "C": 30}], *self.MOVES], self.SAFE)
+        self.assertRegex(text, r"G00 X[-\d.]+ Y[-\d.]+\nG00 Z45\nG29 X50 Y40 Z5 B0 C30\n")
+        self.assertEqual(findings_of({"up": text}), "")
 
     def test_faces_that_cannot_be_reached(self):
         for commands, reason in (

@@ -27,7 +27,8 @@ def make_jobs(folder: Path) -> None:
         stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=600, check=False, env=environment,
     )
     if run.returncode != 0 or not (folder / "done").is_file():
-        sys.exit(f"freecadcmd: exit status {run.returncode}\n{run.stdout[-3000:]}{run.stderr[-3000:]}")
+        lines = [line for line in (run.stdout + run.stderr).splitlines() if line.strip() and "%)" not in line]
+        sys.exit("\n".join([f"freecadcmd: exit status {run.returncode}", *lines[-30:]]))
 
 
 def numbers_of(value):
@@ -71,6 +72,9 @@ def main() -> int:
             expected = tests.path_of(made)
             wrong = tests.events.difference(expected, tests.events.of_program(tests.programs / "isorun", text), 1.5e-3)
             failures += [f"{path.stem}: {wrong}"] if wrong else []
+            whole = folder / f"{path.stem}.job.iso"  # From the job as an object.
+            if whole.is_file() and whole.read_text(encoding="utf-8") != text:
+                failures.append(f"{path.stem}: posted as a whole job it is another program")
         findings = tests.findings_of(texts)
         failures += [findings] if findings else []
     print("\n".join(failures) or f"{len(JOBS)} jobs: as kept, clean, and on FreeCAD's path")
