@@ -173,6 +173,34 @@ class RandomCommands(unittest.TestCase):
                 self.assertFalse(wrong, wrong)
         self.assertEqual(findings_of(texts), "")
 
+    def test_an_almost_full_turn_stays_one(self):
+        """By rounding, its end comes to lie beyond its start."""
+        x, y = 0.6506801375236995, -0.42249922666079853
+        words = {"X": 0.6513692120051188, "Y": -0.4225006951554523, "I": 0.6513326748481623 - x, "J": -0.2779744105790547 - y}
+        commands = [["G1", {"X": x, "Y": y, "F": 5}], ["G2", words]]
+        text = post(commands)
+        self.assertEqual(len(re.findall("^G02", text, re.MULTILINE)), 2, text)
+        start = [["M6", {"T": 3}], ["M3", {"S": 12000}], ["G0", {"X": 0, "Y": 0, "Z": 20}]]
+        expected = FreeCadPath({"G54": ORIGIN}, tools_of(USUAL)).run([{"commands": start + commands}])
+        wrong = self.difference(expected, events.of_program(programs / "isorun", text), 1e-3)
+        self.assertFalse(wrong, wrong)
+
+    def test_fixtures_and_absolute_centers(self):
+        commands = [
+            ["G55", {}], ["G2", {"X": 0, "Y": 0, "I": 5, "J": 5, "F": 5}], ["G91", {}], ["G1", {"X": 3, "Z": -1, "F": 5}], ["G90", {}],
+            ["G90.1", {}], ["G1", {"X": 10, "Y": 20}], ["G3", {"X": 20, "Y": 10, "J": 20, "I": 20}], ["G2", {"X": 40, "Y": 10, "I": 30}], ["G3", {"X": 40, "Y": 30, "J": 20}],
+            ["G91.1", {}], ["G54", {}], ["G1", {"X": 1, "Y": 1, "Z": 1}], ["G3", {"X": 3, "Y": 1, "I": 1}],
+        ]
+        arguments = USUAL + " --fixture G55=300,200,-150"
+        with self.assertRaisesRegex(isocnc_post.PostError, "no arc"):
+            post(commands, arguments)  # Its start is elsewhere in G55.
+        del commands[1]
+        start = [["M6", {"T": 3}], ["M3", {"S": 12000}], ["G0", {"X": 0, "Y": 0, "Z": 20}]]
+        path = FreeCadPath({"G54": ORIGIN, "G55": (300.0, 200.0, -150.0)}, tools_of(USUAL))
+        expected = path.run([{"commands": start + commands}])
+        wrong = events.difference(expected, events.of_program(programs / "isorun", post(commands, arguments)), 1.5e-3)
+        self.assertFalse(wrong, wrong)
+
     def difference(self, expected, found, digit):
         """By the path alone where arcs are so small that they were written as lines, and near-full ones as two."""
         return events.difference(*(events.joined(each, 8 * digit) for each in (expected, found)), 3 * digit)
@@ -354,6 +382,16 @@ class Faces(unittest.TestCase):
         text = post([["G1", {"X": 5, "B": 10, "F": 5}], ["G1", {"X": 9, "B": 20, "C": 5}], ["G1", {"X": 3}]])
         self.assertIn("G49\nG01 X5 B10 F300\nG01 X9 B20 C5\nG01 X3\nG48\n", text)
         self.assertEqual(findings_of({"five": text}), "")
+        operation = isocnc_post.Operation("turn", [("M6", {"T": 3}), ("G1", {"X": 5.0, "B": 10.0, "F": 5.0})])
+        more = isocnc_post.Operation("flat", [("G1", {"X": 9.0})])
+        text = isocnc_post.post([operation, more], isocnc_post.parse_options(USUAL + " --no-comments"))
+        self.assertIn("G01 X5 B10 F300\nG48\nG01 X9\n", text)
+
+    def test_a_tool_change_dismounts_the_face(self):
+        text = post([["G29", {"B": 90}], *self.MOVES, ["M6", {"T": 4}], ["M3", {"S": 9000}], *self.MOVES], self.SAFE)
+        self.assertIn("G00 Z40\nG27\nG00 Z200\nG00 B0 C0\nM05\nM06 T101004\nS9000 M03\nG00 Z200\n", text)
+        self.assertEqual(text.count("G29"), 2)
+        self.assertEqual(findings_of({"tools": text}), "")
 
 
 if __name__ == "__main__":
