@@ -7,6 +7,7 @@ does with the program, and what the posts of this project write for the steps.
 
 import json
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -116,6 +117,31 @@ class Posts(unittest.TestCase):
                     text = isocnc_post.post(operations, isocnc_post.parse_options(arguments + more))
                     status, report = isodiff(KIT / f"{name}.iso", text, "--tolerance", "0.002")
                     self.assertEqual(status, 0, f"{report}\n{text}")
+
+    def fusion(self, name, properties):
+        command = ["node", HERE / "fusion_stand_in.mjs", ROOT / "posts/fusion/isocnc.cps", KIT / f"{name}.json", json.dumps(properties)]
+        return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+
+    @unittest.skipUnless(shutil.which("node"), "there is no node")
+    def test_fusion_with_a_stand_in(self):
+        for name, case in CASES.items():
+            with self.subTest(name):
+                run = self.fusion(name, {"origin": ",".join(f"{value:g}" for value in case["origin"]), "safeZ": "200"})
+                self.assertEqual((run.returncode, run.stderr), (0, ""))
+                status, report = isodiff(KIT / f"{name}.iso", run.stdout, "--tolerance", "0.002")
+                self.assertEqual(status, 0, f"{report}\n{run.stdout}")
+
+    @unittest.skipUnless(shutil.which("node"), "there is no node")
+    def test_fusion_guesses_nothing(self):
+        for name, properties, reason in (
+            ("lines", {}, "not X,Y,Z"),
+            ("faces", {"origin": "350,220,-180"}, "Safe Z"),
+            ("faces", {"origin": "350,220,-180", "safeZ": "20"}, "below the start"),
+        ):
+            with self.subTest(reason):
+                run = self.fusion(name, properties)
+                self.assertEqual((run.returncode, run.stdout), (1, ""))
+                self.assertIn(reason, run.stderr)
 
 
 if __name__ == "__main__":
