@@ -27,6 +27,7 @@ AXES = LINEAR + ROTARY
 MM_PER_INCH = 25.4
 ARC_TOLERANCE = 0.01  # mm: how far the control lets the ends of an arc be from its circle (ISO031).
 SAME_PLACE = 1e-6  # mm
+MOST_PECKS = 1000  # Of a hole; a smaller Q is a slip, and would fill the disk.
 LEAST_PRECISION = {"mm": 3, "in": 4}  # With fewer digits, rounding alone goes beyond ARC_TOLERANCE.
 FIXTURES = ["G54", "G55", "G56", "G57", "G58", "G59"] + [f"G59.{number}" for number in range(1, 10)]
 # The axes of an arc's plane in the order of its sense, the axis along its normal, and the letters of its center.
@@ -962,6 +963,8 @@ class Translator:
             self.fail("the hole ends above R")
         if number in (73, 83) and words.get("Q", 0.0) <= 0:
             self.fail("the cycle has no Q above 0")
+        if number in (73, 83) and (top - bottom) / words["Q"] > MOST_PECKS:
+            self.fail(f"Q makes more than {MOST_PECKS} pecks of one hole")
         self.take_feed(words)
         level = max(state.at["Z"], top) if state.initial_level else top
         if state.at["Z"] < top:
@@ -1001,6 +1004,13 @@ def post(operations, options, header=()):
 # --- Without FreeCAD -------------------------------------------------------------------------------------------------
 
 
+def three_numbers(values):
+    values = tuple(float(value) for value in values)
+    if len(values) != 3 or not all(map(math.isfinite, values)):
+        raise ValueError("of three numbers")
+    return values
+
+
 def operations_of_json(data):
     operations = []
     try:
@@ -1010,8 +1020,8 @@ def operations_of_json(data):
                 Operation(
                     label=str(each.get("label", "")),
                     commands=[(str(name), {str(key): float(value) for key, value in words.items()}) for name, words in each["commands"]],
-                    coolant=each.get("coolant", "None"),
-                    face=face and face_of_axes(face["origin"], face["i"], face["j"], face["k"]),
+                    coolant=str(each.get("coolant", "None")),
+                    face=face and face_of_axes(*(three_numbers(face[name]) for name in ("origin", "i", "j", "k"))),
                     active=each.get("active", True),
                 )
             )
@@ -1111,8 +1121,10 @@ def operations_of_jobs(jobs):
 
 def in_editor(text):
     """FreeCAD's dialog that lets the user look at the program and change it."""
-    import FreeCAD
-
+    try:
+        import FreeCAD
+    except ImportError:
+        return text
     if not FreeCAD.GuiUp or len(text) > 100000:
         return text
     try:
@@ -1159,7 +1171,7 @@ def main(arguments):
         with open(arguments[0], encoding="utf-8") as file:
             operations = operations_of_json(json.load(file))
         sys.stdout.write(post(operations, parse_options(shlex.join(arguments[1:])), []))
-    except (PostError, OSError, ValueError) as error:
+    except (PostError, OSError, ValueError, RecursionError) as error:
         print(f"isocnc_post: {error}", file=sys.stderr)
         return 1
     return 0

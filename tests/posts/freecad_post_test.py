@@ -227,6 +227,7 @@ class Refused(unittest.TestCase):
         ([["G81", {"X": 0, "Z": 3, "R": 2, "F": 5}]], "ends above R"),
         ([["G83", {"X": 0, "Z": -3, "R": 2, "Q": 0, "F": 5}]], "no Q"),
         ([["G83", {"X": 0, "Z": -3, "R": 2, "Q": 1, "P": 1, "F": 5}]], "P has no meaning"),
+        ([["G73", {"X": 0, "Z": -3, "R": 2, "Q": 1e-9, "F": 5}]], "more than 1000 pecks"),
         ([["G81", {"X": 0, "Z": -3, "R": 2, "L": 3, "F": 5}]], "L has no meaning"),
         ([["G91", {}], ["G81", {"X": 0, "Z": -3, "R": 2, "F": 5}]], "only in G90"),
         ([["G20", {}]], "--inches"),
@@ -270,6 +271,30 @@ class Refused(unittest.TestCase):
             with self.subTest(arguments), self.assertRaises(isocnc_post.PostError) as raised:
                 isocnc_post.parse_options(arguments)
             self.assertIn(reason, str(raised.exception))
+
+    def test_files_that_are_no_jobs(self):
+        face = {"origin": [0, 0, 0], "i": [1, 0, 0], "j": [0, 1, 0], "k": [0, 0, 1]}
+        operation = {"label": "x", "commands": []}
+        for data in (
+            [], 3, None, {}, {"operations": 3}, {"operations": [3]}, {"operations": [{"label": "x"}]},
+            {"operations": [{"commands": [["G0"]]}]}, {"operations": [{"commands": [["G0", {"X": "a"}]]}]}, {"operations": [{"commands": [["G0", 3]]}]},
+            {"operations": [operation | {"face": {"origin": [0, 0, 0]}}]}, {"operations": [operation | {"face": face | {"k": [0, 0]}}]},
+            {"operations": [operation | {"face": face | {"k": [0, 0, math.inf]}}]}, {"operations": [operation | {"face": face | {"k": [0, 0, 0]}}]},
+            {"operations": [operation | {"face": face | {"k": [0, 0, -1]}}]}, {"operations": [operation | {"face": 3}]},
+        ):
+            with self.subTest(data), self.assertRaises(isocnc_post.PostError):
+                isocnc_post.operations_of_json(data)
+        with self.assertRaisesRegex(isocnc_post.PostError, "only Flood and Mist"):
+            post([], coolant=["Flood"])
+        with tempfile.TemporaryDirectory() as folder:
+            for text in ("{", "[" * 100000, "\x00\xff", ""):
+                file = Path(folder) / "job.json"
+                file.write_bytes(text.encode("latin-1"))
+                run = subprocess.run(
+                    [sys.executable, ROOT / "posts/freecad/isocnc_post.py", file], capture_output=True, text=True, check=False
+                )
+                self.assertEqual((run.returncode, run.stdout), (1, ""), run.stderr)
+                self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
 
     def test_nothing_is_guessed(self):
         with self.assertRaisesRegex(isocnc_post.PostError, "where G54 lies on the machine is not known"):
