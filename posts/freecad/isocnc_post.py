@@ -27,6 +27,7 @@ AXES = LINEAR + ROTARY
 MM_PER_INCH = 25.4
 ARC_TOLERANCE = 0.01  # mm: how far the control lets the ends of an arc be from its circle (ISO031).
 SAME_PLACE = 1e-6  # mm
+MOST_REPETITIONS = 100  # Of a hole.
 MOST_PECKS = 1000  # Of a hole; a smaller Q is a slip, and would fill the disk.
 LEAST_PRECISION = {"mm": 3, "in": 4}  # With fewer digits, rounding alone goes beyond ARC_TOLERANCE.
 FIXTURES = ["G54", "G55", "G56", "G57", "G58", "G59"] + [f"G59.{number}" for number in range(1, 10)]
@@ -948,7 +949,7 @@ class Translator:
 
     def cycle(self, number, words):
         state = self.state
-        self.allow(words, CYCLES[number] + ("L" if words.get("L") == 1 else "") + ("P" if not words.get("P") else ""))
+        self.allow(words, CYCLES[number] + "L" + ("P" if not words.get("P") else ""))
         if not state.absolute or state.plane != 17:
             self.fail("drilling cycles only in G90 and G17")
         self.ready()
@@ -970,6 +971,17 @@ class Translator:
         if state.at["Z"] < top:
             self.rapid({"Z": top})
         self.rapid({axis: words[axis] for axis in "XY" if axis in words})
+        for _ in range(self.repetitions(words)):
+            self.hole(number, words, level)
+
+    def repetitions(self, words):
+        number = words.get("L", 1)
+        if number not in range(1, MOST_REPETITIONS + 1):
+            self.fail(f"L is from 1 to {MOST_REPETITIONS}")
+        return int(number)
+
+    def hole(self, number, words, level):
+        top, bottom = words["R"], words["Z"]
         self.rapid({"Z": top})
         if number in (73, 83):
             self.peck(number, top, bottom, words["Q"])
@@ -1155,7 +1167,7 @@ def export(objectslist, filename, argstring):
     else:
         operations = operations_of_objects(objectslist)
     text = post(operations, options, header_lines())
-    if options.show_editor:
+    if options.show_editor and filename != "-":  # Else FreeCAD writes it, and has its own editor.
         text = in_editor(text)
     if filename != "-":
         with open(filename, "w", encoding="utf-8", newline="\n") as file:

@@ -110,6 +110,10 @@ class FreeCadPath:
         if z < top:
             self.to_axis("rapid", 2, top)
         self.go("rapid", [words.get("X", x), words.get("Y", y), max(z, top)])
+        for _ in range(int(words.get("L", 1))):
+            self.hole(code, words, top, bottom, clear)
+
+    def hole(self, code, words, top, bottom, clear):
         self.to_axis("rapid", 2, top)
         if code in (73, 83):
             reached = top

@@ -130,6 +130,7 @@ class RandomCommands(unittest.TestCase):
                 words = {"X": rng.uniform(-50, 50), "Y": rng.uniform(-50, 50), "Z": top - rng.uniform(2, 30), "R": top, "F": 4}
                 words |= {"Q": rng.uniform(1.5, 12)} if code in (73, 83) else {}
                 words |= {"P": 0.5} if code in (82, 89) else {}
+                words |= {"L": 2} if rng.random() < 0.2 else {}
                 level = rng.choice([98, 99])
                 commands += [[f"G{level}", {}], [f"G{code}", words], ["G80", {}]]
                 at = [words["X"], words["Y"], max(at[2], top) if level == 98 else top]
@@ -228,7 +229,8 @@ class Refused(unittest.TestCase):
         ([["G83", {"X": 0, "Z": -3, "R": 2, "Q": 0, "F": 5}]], "no Q"),
         ([["G83", {"X": 0, "Z": -3, "R": 2, "Q": 1, "P": 1, "F": 5}]], "P has no meaning"),
         ([["G73", {"X": 0, "Z": -3, "R": 2, "Q": 1e-9, "F": 5}]], "more than 1000 pecks"),
-        ([["G81", {"X": 0, "Z": -3, "R": 2, "L": 3, "F": 5}]], "L has no meaning"),
+        ([["G81", {"X": 0, "Z": -3, "R": 2, "L": 2.5, "F": 5}]], "L is from 1 to 100"),
+        ([["G81", {"X": 0, "Z": -3, "R": 2, "L": 1e9, "F": 5}]], "L is from 1 to 100"),
         ([["G91", {}], ["G81", {"X": 0, "Z": -3, "R": 2, "F": 5}]], "only in G90"),
         ([["G20", {}]], "--inches"),
         ([["G28", {}]], "--home"),
