@@ -4,6 +4,7 @@ In FreeCAD: copy this file into the folder of macros, and choose `isocnc` as the
 Without FreeCAD: isocnc_post.py JOB.json [options] posts commands that were kept as JSON.
 
 What the control cannot do, or what the job leaves open, is a PostError: then nothing is written.
+Takes Python 3.8 or later, which older FreeCADs have with them.
 """
 
 import argparse
@@ -37,6 +38,7 @@ CYCLES = {73: "XYZRQF", 81: "XYZRF", 82: "XYZRPF", 83: "XYZRQF", 85: "XYZRF", 89
 # G codes that ask for what is in force here in any case.
 SUPERFLUOUS = {21: "", 40: "", 49: "", 64: "P", 80: "", 94: "", 97: ""}
 REFUSED = {
+    38: "there is no probing",
     20: "FreeCAD's own lengths are mm; for a program in inches there is --inches",
     28: "G28 mounts a face here and does not return home; use --home, or give its versors",
     30: "there is no return to a reference point; use --home",
@@ -49,9 +51,8 @@ REFUSED = {
     96: "a constant surface speed has no counterpart",
     98: "G98 stands alone",
 }
-REFUSED |= {number: "tapping has no counterpart: the control does not couple the spindle to Z" for number in (33, 74, 84)}
-REFUSED |= {number: "this cycle has no counterpart in motions" for number in (76, 86, 87, 88)}
-REFUSED |= {number: "there is no probing" for number in (38,)}
+REFUSED.update(dict.fromkeys((33, 74, 84), "tapping has no counterpart: the control does not couple the spindle to Z"))
+REFUSED.update(dict.fromkeys((76, 86, 87, 88), "this cycle has no counterpart in motions"))
 REFUSED_M = {
     2: "the program ends after its last operation",
     30: "the program ends after its last operation",
@@ -624,7 +625,7 @@ class Translator:
     def forget(self):
         """Positions are not known any more: after a tool change the tip is elsewhere."""
         tilt = {axis: self.state.at[axis] for axis in ROTARY}
-        self.state.at = dict.fromkeys(LINEAR) | tilt
+        self.state.at = {**dict.fromkeys(LINEAR), **tilt}
         self.state.written = {axis: text for axis, text in self.state.written.items() if axis in ROTARY}
 
     def mount_fixture(self, name):
@@ -812,7 +813,7 @@ class Translator:
     def rapid(self, target):
         state = self.state
         if self.turns and state.at["B"] is None:
-            target = dict.fromkeys(ROTARY, 0.0) | target
+            target = {**dict.fromkeys(ROTARY, 0.0), **target}
         self.move(0, target)
 
     def feed(self, target):
