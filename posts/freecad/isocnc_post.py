@@ -434,7 +434,7 @@ class Translator:
         else:
             for text in lines_of(options.postamble):
                 self.line(text)
-        if options.home:
+        if options.home and state.tool:
             if state.fixture and options.fixtures[state.fixture] not in (None, (0.0, 0.0, 0.0)):
                 self.line("G92 X0 Y0 Z0")
             self.forget()

@@ -350,6 +350,11 @@ class Options(unittest.TestCase):
         text = post([], USUAL + " --home 0,10,-20")
         self.assertTrue(text.endswith("M05\nG92 X0 Y0 Z0\nG00 Z-20\nG00 X0 Y10\nM02\n"), text)
 
+    def test_nothing_moves_without_a_tool(self):
+        text = isocnc_post.post([], isocnc_post.parse_options(USUAL + " --home 0,0,0"))
+        self.assertEqual(text, "G17 G71 G90 G94\nM02\n")
+        self.assertEqual(findings_of({"empty": text}), "")
+
     def test_the_command_without_freecad(self):
         job = HERE / "jobs/pocket.json"
         run = subprocess.run(
