@@ -234,6 +234,7 @@ function dismountFace() {
 
 function upright() {
   if (tilted) {
+    rapid({Z: safeHeight()});
     rapid({B: 0, C: 0});
     at_c = 0;
     tilted = false;
@@ -347,6 +348,7 @@ function onSection() {
   rapid({X: start.x, Y: start.y});
   if (section.isMultiAxis()) {
     rapid(tiltOf(section.getGlobalInitialToolAxis()));
+    tilted = true;
   }
 }
 
@@ -363,7 +365,7 @@ function onLinear(x, y, z, feed) {
   feedMove({X: x, Y: y, Z: z}, feed);
 }
 
-/** B and C of a tool axis; C goes the shorter way on, and stays where the tool is upright. */
+/** B and C of a tool axis; C goes on the shorter way, and stays where it is under an upright tool. */
 function tiltOf(axis) {
   var b = degrees(Math.acos(Math.max(-1, Math.min(1, axis.z))));
   var c = at_c;
@@ -372,7 +374,6 @@ function tiltOf(axis) {
     c += 360 * Math.round((at_c - c) / 360);
   } else {
     b = 0;
-    c = 360 * Math.round(at_c / 360);
   }
   at_c = c;
   return {B: b, C: c};

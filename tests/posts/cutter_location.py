@@ -94,9 +94,10 @@ def expected_of(case):
 
 
 def freecad_job_of(case):
-    """The steps as a job of FreeCAD, and the arguments of its post. Between faces, the post goes as it does."""
+    """The steps as a job of FreeCAD, and the arguments of its post. Between faces, the post goes by itself."""
     operations, tools, frame, at = [], {}, None, [None] * 3
     clearance = 0.25
+    has_faces = any(step.get("frame") for step in case["steps"])
 
     def add(name, **words):
         if not operations or operations[-1].get("face") != frame:
@@ -126,7 +127,7 @@ def freecad_job_of(case):
             at = [*step["at"], step["retract"]]
         elif "dwell" in step:
             add("G4", P=step["dwell"])
-        elif step.get("approach"):
+        elif step.get("approach") and has_faces:
             at = [old if new is None else new for new, old in zip(step["to"], at)]
         elif step["move"] == "arc":
             add(f"G{NORMALS[tuple(step['normal'])]}")

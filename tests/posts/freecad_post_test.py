@@ -159,7 +159,7 @@ class RandomCommands(unittest.TestCase):
     def test_the_path_is_the_same(self):
         rng = random.Random(24)
         texts = {}
-        for number in range(120):
+        for number in range(80):
             commands = self.commands(rng)
             more = rng.choice(["", "--inches --precision 5", "--modal --axis-modal", "--arcs radius", "--peck-clearance 1"])
             arguments = f"{USUAL} {more}"

@@ -80,8 +80,9 @@ class Cases(unittest.TestCase):
             lines = program.read_text(encoding="utf-8").splitlines()
             changed = 0
             for index, line in enumerate(lines):
-                if line.startswith("G00 Z") and lines[index + 2].startswith("Z"):
-                    continue  # On the way to the line after the next one.
+                following = [each for each in lines[index + 1 :] if not each.startswith("(")]
+                if line.startswith("G00 Z") and following[0].startswith("Z"):
+                    continue  # On the way to the next one.
                 for wrong in self.wrong_lines(line):
                     text = "\n".join([*lines[:index], *wrong, *lines[index + 1 :]]) + "\n"
                     status, report = isodiff(program, text)
