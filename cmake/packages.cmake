@@ -74,6 +74,8 @@ install(DIRECTORY cmake/windows/notepad++ DESTINATION ${CMAKE_INSTALL_DOCDIR} CO
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png" PATTERN man EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+# The post-processors of CAM systems, and the kit that proves any.
+install(DIRECTORY posts DESTINATION ${CMAKE_INSTALL_DATADIR}/isocnc COMPONENT programs PATTERN __pycache__ EXCLUDE)
 
 if(ISOCNC_DEVELOPMENT)
   set(unless_asked)
