@@ -151,6 +151,14 @@ bool is_other_way_around(const RunPair& runs, const MachineAction& a, const Mach
   return left.normal.dot(right.normal) * left.sweep_deg * right.sweep_deg < 0;
 }
 
+bool is_same_action(const RunPair& runs, const MachineAction& a, const MachineAction& b, const Vec3& shift) {
+  if (a.kind != b.kind) return false;
+  if (!a.is_motion()) return is_same_effect(runs, a, b);
+  if (!ends_together(runs, a, b, shift)) return false;
+  if ((a.is_line() && b.is_line()) || (a.is_by_joints && b.is_by_joints)) return true;
+  return (b.from.tip - a.from.tip - shift).norm() <= runs.tolerance && goes_same_way(runs, a, b);
+}
+
 std::optional<PlaceInBoth> same_step(const RunPair& runs, const PlaceInBoth& place, const Vec3& shift,
                                      const OverlapListener& overlap) {
   Followed a{place.a};

@@ -60,6 +60,10 @@ bool goes_same_way(const RunPair& runs, const MachineAction& a, const MachineAct
 /// Whether two arcs turn in opposite directions.
 bool is_other_way_around(const RunPair& runs, const MachineAction& a, const MachineAction& b);
 
+/// Whether two actions are the same but for what comes before them: a motion from elsewhere straight to the same
+/// place is, an arc has to be the whole path.
+bool is_same_action(const RunPair& runs, const MachineAction& a, const MachineAction& b, const geometry::Vec3& shift);
+
 /// Aligns two runs, from their starts to their ends. `shift` leads from a's start to that of b. Takes time in
 /// proportion to the actions and, for each difference, to the square of its size, up to a limit (docs/isodiff.md).
 std::vector<AlignedPiece> align(const RunPair& runs, const geometry::Vec3& shift = geometry::Vec3::Zero());
