@@ -104,7 +104,8 @@ std::vector<BehaviorChange> compare(const RecordedRun& old_run, const RecordedRu
     return compare(without_ignored(old_run, options), without_ignored(new_run, options), rest);
   }
   const bool is_swapped = is_before(new_run, old_run);
-  const RunPair runs{is_swapped ? new_run : old_run, is_swapped ? old_run : new_run, options.tolerance};
+  WorkBudget budget;
+  const RunPair runs{is_swapped ? new_run : old_run, is_swapped ? old_run : new_run, options.tolerance, &budget};
   std::vector<BehaviorChange> changes = changes_between(runs, options);
   if (!is_swapped) return changes;
   for (BehaviorChange& change : changes) change = mirrored(std::move(change));

@@ -45,6 +45,10 @@ constexpr Text kInstead{"{} instead of {}", "{} invece di {}"};
 constexpr Text kFrame{"moved by {}: the frame is elsewhere", "spostato di {}: il sistema di riferimento è altrove"};
 constexpr Text kFrameOf{"moved by {}: the frame of line {} is elsewhere",
                         "spostato di {}: il sistema di riferimento della riga {} è altrove"};
+constexpr Text kFrameTurned{"moved by up to {} mm: the frame of line {} is turned",
+                            "spostato fino a {} mm: il sistema di riferimento della riga {} è girato"};
+constexpr Text kFrameTurnedFar{"moved: the frame of line {} is turned",
+                               "spostato: il sistema di riferimento della riga {} è girato"};
 constexpr Text kDwell{"dwell of {} instead of {}", "attesa di {} invece di {}"};
 constexpr Text kDwellAdded{"dwell of {} added", "aggiunta un'attesa di {}"};
 constexpr Text kDwellRemoved{"dwell of {} removed", "tolta un'attesa di {}"};
@@ -172,6 +176,11 @@ std::string path_in_words(const BehaviorChange& change, Language language) {
 }
 
 std::string frame_in_words(const BehaviorChange& change, Language language) {
+  if (!change.shift) {
+    const std::size_t line = change.new_cause.value_or(0) + 1;
+    return change.distance ? dialect::format(kFrameTurned, language, shown_distance(*change.distance), line)
+                           : dialect::format(kFrameTurnedFar, language, line);
+  }
   const std::string shift = shown_shift(*change.shift);
   return change.new_cause ? dialect::format(kFrameOf, language, shift, *change.new_cause + 1)
                           : dialect::format(kFrame, language, shift);
