@@ -14,6 +14,7 @@
 
 namespace isocnc::revisions {
 
+using namespace dialect::literals;
 using dialect::Text;
 using selection::VgplValues;
 using OrderedJson = nlohmann::ordered_json;
@@ -99,6 +100,13 @@ bool PathComparison::is_same() const {
   return std::all_of(paths.begin(), paths.end(), [](const ComparedPaths& each) { return each.is_same; });
 }
 
+/// A program without M02 has been run to its end.
+static std::optional<PathComparison::StoppedRun> stop_of(const comparison::RecordedRun& run) {
+  const std::string_view code = comparison::error_of(run);
+  if (code.empty() || code == dialect::definition("m02-missing"_diag).code) return std::nullopt;
+  return PathComparison::StoppedRun{code, run.actions.back().line};
+}
+
 PathComparison compare_on_paths(const RevisionPair& pair, const CompareOptions& options, std::uint32_t set_registers,
                                 const comparison::TextStyle& style) {
   PathComparison result;
@@ -111,6 +119,7 @@ PathComparison compare_on_paths(const RevisionPair& pair, const CompareOptions& 
     result.paths.push_back({.values = values.take(compared.old_run.path, compared.new_run.path),
                             .vgpl = *vgpl,
                             .is_same = compared.is_same(),
+                            .stop = stop_of(compared.old_run.recorded),
                             .text = text_of(compared, style),
                             .json = to_json(compared, style.language)});
     vgpl = values.next();

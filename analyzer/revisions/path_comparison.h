@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analyzer/revisions/revision_comparison.h"
@@ -10,13 +13,19 @@ namespace isocnc::revisions {
 
 /// Two revisions, compared for each combination of paths that values of VGPL lead them along.
 struct PathComparison {
+  /// An error that ends a run before the end of its program.
+  struct StoppedRun {
+    std::string_view code;
+    std::size_t line = 0;  ///< From 0.
+  };
   /// Both programs on one path each.
   struct ComparedPaths {
     std::string values;  ///< The values of VGPL that lead there: `VGPL < 1, VGPL > 2`; empty for all.
     double vgpl = 0;     ///< The one that both have been run with.
     bool is_same = false;
-    std::string text;             ///< What differs, as text_of() writes it.
-    nlohmann::ordered_json json;  ///< And as json_of().
+    std::optional<StoppedRun> stop;  ///< Of the old program.
+    std::string text;                ///< What differs, as text_of() writes it.
+    nlohmann::ordered_json json;     ///< And as json_of().
   };
 
   std::vector<ComparedPaths> paths;
