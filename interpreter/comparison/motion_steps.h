@@ -51,7 +51,8 @@ struct DifferentPart {
   bool is_closed = false;  ///< Its last actions are motions that end in the same place, but for `after`.
 };
 
-/// The motions of a part, step by step. None for a part that is too large.
+/// The motions of a part, step by step. None for a part that is too large, or if the budget is used up, also for what
+/// stands between the motions (effect_steps).
 std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart& part);
 
 }  // namespace isocnc::comparison
