@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <new>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "interpreter/dialect/format.h"
 #include "interpreter/system/process.h"
+#include "interpreter/system/system_texts.h"
 
 namespace isocnc::git {
 
@@ -251,7 +254,11 @@ std::optional<RevisionFile> revision_file(const std::string& operand) {
 }
 
 std::variant<FileAtRevision, std::string> read(const RevisionFile& file, Language language) {
-  return Question(file, language).answer();
+  try {
+    return Question(file, language).answer();
+  } catch (const std::bad_alloc&) {
+    return system::cannot_read(ENOMEM, language);
+  }
 }
 
 }  // namespace isocnc::git
