@@ -26,6 +26,9 @@
 #include "interpreter/configuration/scenes.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/diff_markdown.h"
+#include "interpreter/diff_operand.h"
+#include "interpreter/git/external_diff.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/same_file.h"
@@ -33,6 +36,7 @@
 #include "interpreter/system/terminal.h"
 #include "interpreter/system/user_language.h"
 #include "interpreter/text/lists.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::interpreter {
 namespace {
@@ -56,10 +60,13 @@ struct DiffCommandOptions {
   command_line::RunValues values;
   configuration::ConfigurationSource source;
   std::optional<std::string> machine;
+  std::optional<std::vector<std::string>> git_arguments;  ///< All that follows --git.
+  bool has_exit_code = false;                             ///< Of --git: whether the exit status tells of differences.
 
   Language reader_language() const { return dialect::language_named(language).value_or(system::user_language()); }
   bool has_output_file() const { return !output.empty() && output != "-"; }
   bool wants_color() const {
+    if (format != "text") return false;
     if (color != "auto") return color == "always";
     // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets a variable.
     return !has_output_file() && system::is_terminal(system::kStandardOutput) && std::getenv("NO_COLOR") == nullptr;
@@ -75,11 +82,13 @@ constexpr Text kOneStandardInput{"only one of the programs can come from standar
 constexpr Text kNoScene{
     "{}: no setup is for this program, so contacts and material are not compared",
     "{}: nessun attrezzaggio è per questo programma, quindi contatti e materiale non si confrontano"};
+constexpr Text kGitArguments{"--git is followed by the arguments that git gives, 1, 7 or 9, and by no options",
+                             "--git è seguito dagli argomenti che dà git, 1, 7 o 9, e da nessuna opzione"};
+constexpr Text kGitFormat{"--git writes text or markdown, to standard output",
+                          "--git scrive text o markdown, sullo standard output"};
 constexpr Text kOverwrites{"{}: this would overwrite {}", "{}: così si sovrascriverebbe {}"};
 
 void complain(std::string_view what) { command_line::complain("isodiff", what); }
-
-bool is_standard_input(const std::string& file) { return file == "-" || file == "/dev/stdin"; }
 
 /// None after an error message.
 std::optional<comparison::ComparisonOptions> read_comparison_options(const DiffCommandOptions& options) {
@@ -107,33 +116,46 @@ std::optional<comparison::ComparisonOptions> read_comparison_options(const DiffC
   return read;
 }
 
-/// Reads both programs; none after an error message.
-std::optional<std::array<system::SourceFile, 2>> read_sources(const DiffCommandOptions& options) {
-  const Language language = options.reader_language();
-  std::vector<system::SourceFile> sources;
-  for (const std::string* const file : {&options.old_file, &options.new_file}) {
-    auto opened = is_standard_input(*file) ? system::SourceFile::read_stream(system::kStandardInput, language)
-                                           : system::SourceFile::open(*file, language);
-    if (const auto* const problem = std::get_if<system::SourceFile::Problem>(&opened)) {
-      complain(fmt::format("{}: {}", is_standard_input(*file) ? "<stdin>" : *file, problem->message));
+/// Both programs as the command names them; none after an error message.
+std::optional<DiffOperands> read_operands(const DiffCommandOptions& options) {
+  DiffOperands operands;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string& word = i == 0 ? options.old_file : options.new_file;
+    auto read = diff_operand(word, options.reader_language());
+    if (const auto* const problem = std::get_if<std::string>(&read)) {
+      complain(fmt::format("{}: {}", word, *problem));
       return std::nullopt;
     }
+    operands[i] = std::move(std::get<DiffOperand>(read));
+  }
+  return operands;
+}
+
+/// Reads the texts of both programs; or says why one has none.
+std::variant<std::array<system::SourceFile, 2>, std::string> read_sources(const DiffOperands& operands,
+                                                                          Language language) {
+  std::vector<system::SourceFile> sources;
+  for (const DiffOperand& operand : operands) {
+    auto opened = open(operand, language);
+    if (const auto* const problem = std::get_if<system::SourceFile::Problem>(&opened))
+      return fmt::format("{}: {}", operand.name, problem->message);
     sources.push_back(std::move(std::get<system::SourceFile>(opened)));
   }
   return std::array{std::move(sources[0]), std::move(sources[1])};
 }
 
 /// Whether the output is none of the files that are read; false after an error message.
-bool is_apart(const DiffCommandOptions& options, const std::vector<std::filesystem::path>& configurations) {
+bool is_apart(const DiffCommandOptions& options, const DiffOperands& operands,
+              const std::vector<std::filesystem::path>& configurations) {
   if (!options.has_output_file()) return true;
-  std::vector<std::string> read = {options.old_file, options.new_file, options.machine.value_or("")};
+  std::vector<std::string> read = {operands[0].file, operands[1].file, options.machine.value_or("")};
   for (const std::filesystem::path& file : configurations) read.push_back(file.generic_string());
-  for (const std::string& file : read) {
-    if (file.empty() || is_standard_input(file) || !system::is_same_file(file, options.output)) continue;
-    complain(dialect::format(kOverwrites, options.reader_language(), options.output, file));
-    return false;
-  }
-  return true;
+  const auto overwritten = std::find_if(read.begin(), read.end(), [&](const std::string& file) {
+    return !file.empty() && system::is_same_file(file, options.output);
+  });
+  if (overwritten == read.end()) return true;
+  complain(dialect::format(kOverwrites, options.reader_language(), options.output, *overwritten));
+  return false;
 }
 
 bool write_result(const DiffCommandOptions& options, std::string_view text) {
@@ -150,6 +172,13 @@ bool write_result(const DiffCommandOptions& options, std::string_view text) {
   return !problem;
 }
 
+/// Writes what git shows of a file among others.
+ExitStatus write_for_git(const DiffCommandOptions& options, std::string_view heading, std::string_view text) {
+  const std::string_view gap = git::diffs_before() > 0 ? "\n" : "";
+  const std::string title = options.format == "markdown" ? "" : text::printable(heading) + '\n';
+  return write_result(options, fmt::format("{}{}{}", gap, title, text)) ? ExitStatus::Success : ExitStatus::Failure;
+}
+
 /// What one of the programs runs on, and what is shown of it.
 struct ProgramMachine {
   std::unique_ptr<const configuration::Configuration> configuration;  ///< With the machine that is given, if one is.
@@ -158,9 +187,6 @@ struct ProgramMachine {
 
   const configuration::MachineConfiguration& machine() const { return configuration->machine; }
 };
-
-/// An empty path for standard input.
-std::filesystem::path program_path(const std::string& file) { return is_standard_input(file) ? "" : file; }
 
 /// Prints mistakes, if there are any.
 bool has_mistakes(const std::vector<std::vector<std::string>>& lists) {
@@ -175,13 +201,14 @@ bool has_mistakes(const std::vector<std::vector<std::string>>& lists) {
 
 /// Finds the machines of both programs. The configurations also set the language, unless the command line does. None
 /// after error messages.
-std::optional<std::array<ProgramMachine, 2>> find_machines(DiffCommandOptions& options, configuration::Scenes& scenes,
+std::optional<std::array<ProgramMachine, 2>> find_machines(DiffCommandOptions& options, const DiffOperands& operands,
+                                                           configuration::Scenes& scenes,
                                                            configuration::Configurations& found) {
   configuration::Configurations given({.file = options.machine, .none = !options.machine}, options.reader_language());
   selection::SettingsFinder settings(found, {});
   std::vector<ProgramMachine> machines;
-  for (const std::string* const file : {&options.old_file, &options.new_file}) {
-    const std::filesystem::path program = program_path(*file);
+  for (const DiffOperand& operand : operands) {
+    const std::filesystem::path& program = operand.place;
     const configuration::Configuration& configuration = found.in_folder(program.parent_path());
     if (options.language.empty() && configuration.language)
       options.language = dialect::name_of(*configuration.language);
@@ -192,14 +219,13 @@ std::optional<std::array<ProgramMachine, 2>> find_machines(DiffCommandOptions& o
   if (has_mistakes({found.mistakes(options.reader_language()), given.mistakes(options.reader_language())}))
     return std::nullopt;
   if (options.verify && !options.source.none) {
-    machines[0].scene = scenes.of(*machines[0].configuration, program_path(options.old_file));
-    machines[1].scene = scenes.of(*machines[1].configuration, program_path(options.new_file));
+    machines[0].scene = scenes.of(*machines[0].configuration, operands[0].place);
+    machines[1].scene = scenes.of(*machines[1].configuration, operands[1].place);
   }
   if (has_mistakes({scenes.mistakes(options.reader_language())})) return std::nullopt;
   if (options.verify)
     for (std::size_t side = 0; side < 2; ++side)
-      if (!machines[side].scene)
-        complain(dialect::format(kNoScene, options.reader_language(), side == 0 ? options.old_file : options.new_file));
+      if (!machines[side].scene) complain(dialect::format(kNoScene, options.reader_language(), operands[side].name));
   return std::array{std::move(machines[0]), std::move(machines[1])};
 }
 
@@ -256,35 +282,90 @@ DiffResult compare_all_paths(const revisions::RevisionPair& pair, const revision
           compared.is_same() ? same : ExitStatus::Findings};
 }
 
-ExitStatus compare_files(DiffCommandOptions options) {
+/// What is shown in place of a comparison.
+std::string shown_obstacle(std::string_view heading, std::string_view reason, const DiffCommandOptions& options) {
+  const std::string text = text::printable(reason) + '\n';
+  return options.format == "markdown" ? diff_markdown(heading, text) : text;
+}
+
+/// Compares two programs and writes what differs. `diff` is what git has asked, if it has.
+ExitStatus compare_files(DiffCommandOptions options, const DiffOperands& operands,
+                         const std::optional<git::ExternalDiff>& diff) {
   configuration::Configurations found(options.source, options.reader_language());
   configuration::Scenes scenes(options.reader_language());
-  const auto machines = find_machines(options, scenes, found);
+  const auto machines = find_machines(options, operands, scenes, found);
   if (!machines) return ExitStatus::Failure;
+  const Language language = options.reader_language();
   const auto compare_options = read_compare_options(options);
-  if (!compare_options || !is_apart(options, {(*machines)[0].configuration->file, (*machines)[1].configuration->file}))
+  if (!compare_options ||
+      !is_apart(options, operands, {(*machines)[0].configuration->file, (*machines)[1].configuration->file}))
     return ExitStatus::Failure;
-  if (is_standard_input(options.old_file) && is_standard_input(options.new_file)) {
-    complain(kOneStandardInput.in(options.reader_language()));
+  if (operands[0].is_standard_input() && operands[1].is_standard_input()) {
+    complain(kOneStandardInput.in(language));
     return ExitStatus::Failure;
   }
-  const auto sources = read_sources(options);
-  if (!sources) return ExitStatus::Failure;
+  const std::string heading =
+      diff ? diff->heading(language) : fmt::format("{} -> {}", operands[0].name, operands[1].name);
+  auto read = read_sources(operands, language);
+  if (const auto* const problem = std::get_if<std::string>(&read)) {
+    if (diff) return write_for_git(options, heading, shown_obstacle(heading, *problem, options));
+    complain(*problem);
+    return ExitStatus::Failure;
+  }
+  const auto& sources = std::get<std::array<system::SourceFile, 2>>(read);
   const auto revision = [&](std::size_t side) {
     const ProgramMachine& machine = (*machines)[side];
-    return revisions::Revision{(*sources)[side].text(), machine.machine().timed, machine.machine().setup,
+    return revisions::Revision{sources[side].text(), machine.machine().timed, machine.machine().setup,
                                machine.selection, machine.scene.get()};
   };
   const revisions::Revision old_revision = revision(0);
   const revisions::Revision new_revision = revision(1);
   const revisions::RevisionPair pair{old_revision, new_revision};
-  const DiffResult result = options.all_paths ? compare_all_paths(pair, *compare_options, options)
-                                              : compare_once(pair, *compare_options, options);
+  DiffResult result = options.all_paths ? compare_all_paths(pair, *compare_options, options)
+                                        : compare_once(pair, *compare_options, options);
+  if (options.format == "markdown") result.text = diff_markdown(heading, result.text);
+  if (diff) {
+    const ExitStatus written = write_for_git(options, heading, result.text);
+    return options.has_exit_code && written == ExitStatus::Success ? result.status : written;
+  }
   return write_result(options, result.text) ? result.status : ExitStatus::Failure;
+}
+
+/// Compares the programs that the command names.
+ExitStatus compare_named(const DiffCommandOptions& options) {
+  const std::optional<DiffOperands> operands = read_operands(options);
+  return operands ? compare_files(options, *operands, std::nullopt) : ExitStatus::Failure;
+}
+
+/// Compares what git gives. What cannot be compared is said in its place, since git would stop at another exit status.
+ExitStatus compare_for_git(const DiffCommandOptions& options) {
+  const Language language = options.reader_language();
+  const std::optional<git::ExternalDiff> diff = git::read_external_diff(*options.git_arguments);
+  const bool has_format = (options.format == "text" || options.format == "markdown") && options.output.empty();
+  if (!diff || !has_format) {
+    complain((diff ? kGitFormat : kGitArguments).in(language));
+    return ExitStatus::Failure;
+  }
+  const auto operands = diff_operands(*diff, language);
+  if (const auto* const both = std::get_if<DiffOperands>(&operands)) return compare_files(options, *both, diff);
+  const std::string heading = diff->heading(language);
+  return write_for_git(options, heading, shown_obstacle(heading, std::get<std::string>(operands), options));
+}
+
+/// Takes what follows --git from the arguments of the command: among it there may be names that begin with a minus.
+std::optional<std::vector<std::string>> take_git_arguments(int& argc, char** argv) {
+  const auto is_end = [](std::string_view word) { return word == "--git" || word == "--"; };
+  const int at = static_cast<int>(std::find_if(argv + std::min(argc, 1), argv + argc, is_end) - argv);
+  if (at == argc || argv[at] == std::string_view("--")) return std::nullopt;
+  std::vector<std::string> taken(argv + at + 1, argv + argc);
+  argc = at + 1;
+  return taken;
 }
 
 ExitStatus diff_main(int argc, char** argv) {
   DiffCommandOptions options;
+  bool is_for_git = false;
+  options.git_arguments = take_git_arguments(argc, argv);
   command_line::ProgramApp program(
       argc, argv, {"Compares what two ISOCNC programs do.", "Confronta che cosa fanno due programmi ISOCNC."},
       {.program = "isodiff",
@@ -299,6 +380,9 @@ ExitStatus diff_main(int argc, char** argv) {
                        "avanzamenti, utensili, mandrino, funzioni M, attese, e come finisce l'esecuzione. Come è "
                        "scritto un programma non conta: numeri di riga, commenti, G90 o G91, unità, archi con raggio o "
                        "centro, una linea divisa in due."},
+                      {"REV:FILE is the file of a revision in git, HEAD:part.iso. A file of this name is meant first.",
+                       "REV:FILE è il file di una revisione in git, HEAD:part.iso. Un file con questo nome viene "
+                       "prima."},
                       {"Both run under the same VGPL and registers. Each program has the configuration that is found "
                        "above it, unless one is given.",
                        "Entrambi sono eseguiti con la stessa VGPL e gli stessi registri. Ogni programma ha la "
@@ -310,19 +394,17 @@ ExitStatus diff_main(int argc, char** argv) {
              {"A mistake in the command or in an isocnc.json, or something could not be read or written.",
               "Un errore nel comando o in un isocnc.json, oppure qualcosa che non si è potuto leggere o scrivere."}}},
        .see_also = {"isorun", "isofmt", "isolint"}});
-  program
-      .add_option("OLD", options.old_file, {" ", " "},
-                  {"The old program, or - for standard input", "Il vecchio programma, o - per lo standard input"})
-      .required();
-  program
-      .add_option("NEW", options.new_file, {" ", " "},
-                  {"The new program, or - for standard input", "Il nuovo programma, o - per lo standard input"})
-      .required();
+  const command_line::ProgramOption programs[] = {
+      program.add_option("OLD", options.old_file, {" ", " "},
+                         {"The old program, REV:FILE of git, or - for standard input",
+                          "Il vecchio programma, REV:FILE di git, o - per lo standard input"}),
+      program.add_option("NEW", options.new_file, {" ", " "},
+                         {"The new program, in the same ways", "Il nuovo programma, negli stessi modi"})};
   program.add_option(
       "--tolerance", options.tolerance, {"MM", "MM"},
       {"What is this near is the same (else 0.001)", "Ciò che è vicino così è lo stesso (altrimenti 0.001)"});
-  program.add_choice("--format", options.format, {"text", "json"}, {"FORMAT", "FORMATO"},
-                     {"text or json (else text)", "text o json (altrimenti text)"});
+  program.add_choice("--format", options.format, {"text", "json", "markdown"}, {"FORMAT", "FORMATO"},
+                     {"text, json or markdown (else text)", "text, json o markdown (altrimenti text)"});
   program.add_option("-o,--output", options.output, command_line::kFileValue,
                      {"Where to write; else to standard output", "Dove scrivere; altrimenti sullo standard output"});
   program
@@ -345,10 +427,19 @@ ExitStatus diff_main(int argc, char** argv) {
   command_line::add_source_options(
       program, options.source,
       {"Read this, not the isocnc.json above a program", "Legge questo, non l'isocnc.json sopra un programma"});
+  const auto git = program.add_flag(
+      "--git", is_for_git,
+      {"As git calls its diff drivers; the last option", "Come git chiama i suoi driver di diff; è l'ultima opzione"});
+  program
+      .add_flag("--exit-code", options.has_exit_code,
+                {"With --git: exit with 1 if they differ", "Con --git: stato 1 se differiscono"})
+      .needs(git);
   program.add_language(options.language,
                        {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
+  if (!options.git_arguments)
+    for (const auto& operand : programs) operand.required();
   if (const auto status = program.answer(argc, argv)) return *status;
-  return compare_files(std::move(options));
+  return options.git_arguments ? compare_for_git(options) : compare_named(options);
 }
 
 }  // namespace
