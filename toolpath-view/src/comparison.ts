@@ -40,6 +40,9 @@ export interface ComparisonRecording {
 export const marks = ['same', 'moved', 'added', 'removed', 'changed'] as const;
 export type Mark = (typeof marks)[number];
 
+/** What a mark is besides a color. */
+export const signs: Record<Mark, string> = { same: '', moved: '↔', added: '+', removed: '−', changed: '≠' };
+
 export function markOf({ kind }: Pick<Change, 'kind'>): Mark {
   if (kind === 'moved' || kind === 'frame') return 'moved';
   return kind === 'added' || kind === 'removed' ? kind : 'changed';

@@ -40,7 +40,7 @@ export class SharedClock {
     const passed = Math.min(Math.max(0, clock - this.starts[i]), this.starts[i + 1] - this.starts[i]);
     const leader = this.leaderOf(i);
     const time = this.times[leader][i] + passed;
-    return side === leader ? time : this.follow(leader, side, i, time);
+    return recorded(side === leader ? time : this.follow(leader, side, i, time));
   }
 
   /** A moment at which a program has run so far: of the new program the first one. */
@@ -51,6 +51,19 @@ export class SharedClock {
     const inside = Math.min(Math.max(time, this.times[side][i]), this.times[side][i + 1]);
     const leading = side === leader ? inside : this.follow(side, leader, i, inside);
     return this.starts[i] + leading - this.times[leader][i];
+  }
+
+  /** When the step of either path ends that ends next, or the one before. */
+  neighbor(moment: number, direction: 1 | -1): number {
+    const moments = (['old', 'new'] as const).flatMap((side) => {
+      const path = this.paths[side];
+      const { step } = path.at(this.time(side, moment));
+      const near = step < 0 ? [] : [step - 2, step - 1, step, step + 1].filter((each) => each >= 0 && each < path.stepCount);
+      return near.map((each) => this.at(side, path.endOf(each)));
+    });
+    const beyond = moments.filter((each) => (each - moment) * direction > 1e-9);
+    if (beyond.length === 0) return direction > 0 ? this.seconds : 0;
+    return direction > 0 ? Math.min(...beyond) : Math.max(...beyond);
   }
 
   /** Whose time the clock takes. */
@@ -100,6 +113,9 @@ export class SharedClock {
     return Math.min(after === 0 ? 0 : after - 1, starts.length - 2);
   }
 }
+
+/** A time as recordings have it, in units of 10 ns, so that the end of a step is no moment of the next one. */
+const recorded = (time: number) => Math.round(time * 1e8) / 1e8;
 
 /** Pairs of steps one by one, where both paths have as many and of the same kinds. */
 function divided(paths: Record<Side, Toolpath>, pair: StepPair): StepPair[] {
