@@ -1,5 +1,6 @@
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -17,10 +18,14 @@
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/overlay/comparison_page.h"
+#include "interpreter/plot/page_template.h"
+#include "interpreter/plot/plot_tools.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/source_file.h"
+#include "interpreter/system/terminal.h"
 #include "interpreter/system/user_language.h"
 #include "interpreter/text/lists.h"
 
@@ -60,6 +65,11 @@ constexpr Text kWrongIgnored{"--ignore takes feed, speed, time or comments, not 
                              "--ignore vuole feed, speed, time o comments, non {}"};
 constexpr Text kOneStandardInput{"only one of the programs can come from standard input",
                                  "solo uno dei programmi può arrivare dallo standard input"};
+constexpr Text kNoPage{"this isodiff writes no html: it was built without npm, which that takes",
+                       "questo isodiff non scrive html: è stato compilato senza npm, che serve per questo"};
+constexpr Text kPageToTerminal{"--format html writes a page, which a terminal does not show: name a file with --output",
+                               "--format html scrive una pagina, che un terminale non mostra: indicare un file con "
+                               "--output"};
 constexpr Text kOverwrites{"{}: this would overwrite {}", "{}: così si sovrascriverebbe {}"};
 
 void complain(std::string_view what) { command_line::complain("isodiff", what); }
@@ -121,18 +131,55 @@ bool is_apart(const DiffCommandOptions& options, const std::vector<std::filesyst
   return true;
 }
 
-bool write_result(const DiffCommandOptions& options, std::string_view text) {
+/// Whether a page can be written, and somebody can open it; false after an error message.
+bool can_write_page(const DiffCommandOptions& options) {
+  if (options.format != "html") return true;
+  if (plot::kPageTemplate.empty()) {
+    complain(kNoPage.in(options.reader_language()));
+    return false;
+  }
+  if (options.has_output_file() || !system::is_terminal(system::kStandardOutput)) return true;
+  complain(kPageToTerminal.in(options.reader_language()));
+  return false;
+}
+
+/// Opens the output, lets `write` write to it, and closes it; false after an error message.
+bool write_result(const DiffCommandOptions& options, const std::function<void(system::OutputFile&)>& write) {
   std::optional<system::OutputFile> output;
   if (options.has_output_file()) {
     output.emplace(std::filesystem::path(options.output));
   } else {
     output.emplace(system::kStandardOutput);
   }
-  output->write(text);
+  write(*output);
   const std::optional<std::string> problem =
       system::commit(*output, options.has_output_file() ? options.output : "<stdout>", options.reader_language());
   if (problem) complain(*problem);
   return !problem;
+}
+
+plot::PlotSubject subject_of(const DiffCommandOptions& options, const std::string& file,
+                             const ComparedProgram& program) {
+  return {.name = is_standard_input(file) ? "<stdin>" : std::filesystem::path(file).filename().generic_string(),
+          .program = program.source.text(),
+          .home = program.machine.setup.home,
+          .tools = plot::plot_tools(program.machine),
+          .page = plot::kPageTemplate,
+          .language = options.reader_language()};
+}
+
+void write_page(system::OutputFile& output, const DiffCommandOptions& options,
+                const std::array<ComparedProgram, 2>& programs, const running::RunOptions& run,
+                const comparison::ComparedRuns& runs, double tolerance) {
+  const auto& [old_program, new_program] = programs;
+  const plot::PlotSubject old_subject = subject_of(options, options.old_file, old_program);
+  const plot::PlotSubject new_subject = subject_of(options, options.new_file, new_program);
+  running::RunOptions old_options = run;
+  running::RunOptions new_options = run;
+  old_options.setup = old_program.machine.setup;
+  new_options.setup = new_program.machine.setup;
+  overlay::write_page(output, {old_subject, old_options, old_program.machine.timed},
+                      {new_subject, new_options, new_program.machine.timed}, runs, tolerance);
 }
 
 comparison::RecordedRun record(const ComparedProgram& program, running::RunOptions run) {
@@ -168,19 +215,27 @@ ExitStatus compare_files(DiffCommandOptions options) {
     return ExitStatus::Failure;
   }
   const auto comparison_options = read_comparison_options(options);
-  if (!comparison_options || !is_apart(options, files)) return ExitStatus::Failure;
+  if (!comparison_options || !can_write_page(options) || !is_apart(options, files)) return ExitStatus::Failure;
   if (is_standard_input(options.old_file) && is_standard_input(options.new_file)) {
     complain(kOneStandardInput.in(language));
     return ExitStatus::Failure;
   }
   auto sources = read_sources(options);
   if (!sources) return ExitStatus::Failure;
-  const comparison::RecordedRun old_run = record({std::move((*sources)[0]), *machines[0]}, run);
-  const comparison::RecordedRun new_run = record({std::move((*sources)[1]), *machines[1]}, run);
+  const std::array<ComparedProgram, 2> programs{ComparedProgram{std::move((*sources)[0]), *machines[0]},
+                                                ComparedProgram{std::move((*sources)[1]), *machines[1]}};
+  const comparison::RecordedRun old_run = record(programs[0], run);
+  const comparison::RecordedRun new_run = record(programs[1], run);
   const std::vector<comparison::BehaviorChange> changes = comparison::compare(old_run, new_run, *comparison_options);
   const comparison::ComparedRuns compared{old_run, new_run, changes};
-  const std::string result = options.format == "json" ? json_of(compared, language) : text_of(compared, language);
-  if (!write_result(options, result)) return ExitStatus::Failure;
+  const bool is_written = write_result(options, [&](system::OutputFile& output) {
+    if (options.format == "html") {
+      write_page(output, options, programs, run, compared, comparison_options->tolerance);
+    } else {
+      output.write(options.format == "json" ? json_of(compared, language) : text_of(compared, language));
+    }
+  });
+  if (!is_written) return ExitStatus::Failure;
   return changes.empty() ? ExitStatus::Success : ExitStatus::Findings;
 }
 
@@ -222,8 +277,8 @@ ExitStatus diff_main(int argc, char** argv) {
   program.add_option(
       "--tolerance", options.tolerance, {"MM", "MM"},
       {"What is this near is the same (else 0.001)", "Ciò che è vicino così è lo stesso (altrimenti 0.001)"});
-  program.add_choice("--format", options.format, {"text", "json"}, {"FORMAT", "FORMATO"},
-                     {"text or json (else text)", "text o json (altrimenti text)"});
+  program.add_choice("--format", options.format, {"text", "json", "html"}, {"FORMAT", "FORMATO"},
+                     {"text, json or html (else text)", "text, json o html (altrimenti text)"});
   program.add_option("-o,--output", options.output, command_line::kFileValue,
                      {"Where to write; else to standard output", "Dove scrivere; altrimenti sullo standard output"});
   program

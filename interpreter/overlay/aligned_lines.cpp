@@ -148,7 +148,7 @@ std::string_view without_number(std::string_view line) {
 /// Aligns lines step by step, from the first ones on.
 class LineAligner {
  public:
-  LineAligner(const ProgramRun& old_program, const ProgramRun& new_program)
+  LineAligner(const AlignedProgram& old_program, const AlignedProgram& new_program)
       : old_lines_(lines_of(old_program.text)), new_lines_(lines_of(new_program.text)) {}
 
   /// An error may stand behind the last line, where something is missing.
@@ -199,7 +199,7 @@ class LineAligner {
 
 }  // namespace
 
-std::vector<AlignedLines> aligned_lines(const ProgramRun& old_program, const ProgramRun& new_program,
+std::vector<AlignedLines> aligned_lines(const AlignedProgram& old_program, const AlignedProgram& new_program,
                                         double tolerance) {
   const bool is_swapped = comparison::is_before(new_program.run, old_program.run);
   const comparison::RunPair runs{is_swapped ? new_program.run : old_program.run,

@@ -9,7 +9,7 @@
 namespace isocnc::overlay {
 
 /// A program with what the machine does in its run.
-struct ProgramRun {
+struct AlignedProgram {
   std::string_view text;
   const comparison::RecordedRun& run;
 };
@@ -27,6 +27,7 @@ struct AlignedLines {
 
 /// All lines of both programs, in their order. Lines are aligned by what the machine does in them, as compare() aligns
 /// it; those that do nothing, between these, by their text without block numbers. `tolerance` as for compare().
-std::vector<AlignedLines> aligned_lines(const ProgramRun& old_program, const ProgramRun& new_program, double tolerance);
+std::vector<AlignedLines> aligned_lines(const AlignedProgram& old_program, const AlignedProgram& new_program,
+                                        double tolerance);
 
 }  // namespace isocnc::overlay
