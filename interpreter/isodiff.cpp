@@ -1,21 +1,30 @@
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "analyzer/check/jump_map.h"
+#include "analyzer/check/side_by_side.h"
+#include "analyzer/revisions/path_comparison.h"
+#include "analyzer/revisions/revision_report.h"
+#include "analyzer/selection/program_settings.h"
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/command_line/run_values.h"
 #include "interpreter/command_line/source_options.h"
-#include "interpreter/comparison/comparison_text.h"
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/configuration/scenes.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/overlay/comparison_page.h"
@@ -43,6 +52,9 @@ struct DiffCommandOptions {
   std::string tolerance = "0.001";
   std::string format = "text";
   std::string output;
+  std::string color = "auto";
+  bool all_paths = false;
+  bool verify = false;
   std::vector<std::string> ignored;
   std::string language;
   command_line::RunValues values;
@@ -51,12 +63,11 @@ struct DiffCommandOptions {
 
   Language reader_language() const { return dialect::language_named(language).value_or(system::user_language()); }
   bool has_output_file() const { return !output.empty() && output != "-"; }
-};
-
-/// One of the two programs.
-struct ComparedProgram {
-  system::SourceFile source;
-  const configuration::MachineConfiguration& machine;
+  bool wants_color() const {
+    if (color != "auto") return color == "always";
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets a variable.
+    return !has_output_file() && system::is_terminal(system::kStandardOutput) && std::getenv("NO_COLOR") == nullptr;
+  }
 };
 
 constexpr Text kWrongTolerance{"--tolerance takes a plain number of mm above 0, such as 0.001, not {}",
@@ -67,6 +78,9 @@ constexpr Text kOneStandardInput{"only one of the programs can come from standar
                                  "solo uno dei programmi può arrivare dallo standard input"};
 constexpr Text kNoPage{"this isodiff writes no html: it was built without npm, which that takes",
                        "questo isodiff non scrive html: è stato compilato senza npm, che serve per questo"};
+constexpr Text kOnePath{"--format html shows both programs on one path: name it by --vgpl instead of --all-paths",
+                        "--format html mostra i due programmi su una sola via: indicarla con --vgpl invece di "
+                        "--all-paths"};
 constexpr Text kPageToTerminal{"--format html writes a page, which a terminal does not show: name a file with --output",
                                "--format html scrive una pagina, che un terminale non mostra: indicare un file con "
                                "--output"};
@@ -138,6 +152,10 @@ bool can_write_page(const DiffCommandOptions& options) {
     complain(kNoPage.in(options.reader_language()));
     return false;
   }
+  if (options.all_paths) {
+    complain(kOnePath.in(options.reader_language()));
+    return false;
+  }
   if (options.has_output_file() || !system::is_terminal(system::kStandardOutput)) return true;
   complain(kPageToTerminal.in(options.reader_language()));
   return false;
@@ -158,85 +176,169 @@ bool write_result(const DiffCommandOptions& options, const std::function<void(sy
   return !problem;
 }
 
+/// What one of the programs runs on, and what is shown of it.
+struct ProgramMachine {
+  std::unique_ptr<const configuration::Configuration> configuration;  ///< With the machine that is given, if one is.
+  selection::Selection selection;
+  std::shared_ptr<const verification::Scene> scene;  ///< Null unless it is to be verified.
+
+  const configuration::MachineConfiguration& machine() const { return configuration->machine; }
+};
+
+/// An empty path for standard input.
+std::filesystem::path program_path(const std::string& file) { return is_standard_input(file) ? "" : file; }
+
+/// Prints mistakes, if there are any.
+bool has_mistakes(const std::vector<std::vector<std::string>>& lists) {
+  bool has_any = false;
+  for (const std::vector<std::string>& mistakes : lists)
+    for (const std::string& mistake : mistakes) {
+      std::cerr << mistake << '\n';
+      has_any = true;
+    }
+  return has_any;
+}
+
+/// Finds the machines of both programs. The configurations also set the language, unless the command line does. None
+/// after error messages.
+std::optional<std::array<ProgramMachine, 2>> find_machines(DiffCommandOptions& options, configuration::Scenes& scenes,
+                                                           configuration::Configurations& found) {
+  configuration::Configurations given({.file = options.machine, .none = !options.machine}, options.reader_language());
+  selection::SettingsFinder settings(found, {});
+  std::vector<ProgramMachine> machines;
+  for (const std::string* const file : {&options.old_file, &options.new_file}) {
+    const std::filesystem::path program = program_path(*file);
+    const configuration::Configuration& configuration = found.in_folder(program.parent_path());
+    if (options.language.empty() && configuration.language)
+      options.language = dialect::name_of(*configuration.language);
+    auto surrounded = std::make_unique<configuration::Configuration>(configuration);
+    if (options.machine) surrounded->machine = given.in_folder(program.parent_path()).machine;
+    machines.push_back({std::move(surrounded), settings.of(program).selection, nullptr});
+  }
+  if (has_mistakes({found.mistakes(options.reader_language()), given.mistakes(options.reader_language())}))
+    return std::nullopt;
+  if (options.verify && !options.source.none) {
+    machines[0].scene = scenes.of(*machines[0].configuration, program_path(options.old_file));
+    machines[1].scene = scenes.of(*machines[1].configuration, program_path(options.new_file));
+  }
+  if (has_mistakes({scenes.mistakes(options.reader_language())})) return std::nullopt;
+  return std::array{std::move(machines[0]), std::move(machines[1])};
+}
+
+/// How both are run and compared; none after an error message.
+std::optional<revisions::CompareOptions> read_compare_options(const DiffCommandOptions& options) {
+  revisions::CompareOptions read;
+  if (const auto problem = command_line::set_run_values(options.values, options.reader_language(), read.run)) {
+    complain(*problem);
+    return std::nullopt;
+  }
+  const auto comparison_options = read_comparison_options(options);
+  if (!comparison_options) return std::nullopt;
+  read.comparison = *comparison_options;
+  read.together = [](const std::function<void()>& work) {
+    check::side_by_side(std::max(1, static_cast<int>(std::thread::hardware_concurrency())), work);
+  };
+  return read;
+}
+
+/// The registers of --set, which have been read before.
+check::RegisterSet set_registers(const DiffCommandOptions& options) {
+  check::RegisterSet registers = 0;
+  for (const std::string& setting : options.values.settings) {
+    const auto reg = command_line::read_count(setting.substr(1, setting.find('=') - 1), dialect::kRegisterCount);
+    registers |= check::register_bit(static_cast<int>(reg.value_or(0)));
+  }
+  return registers;
+}
+
+/// The result as text or JSON, and the exit status.
+struct DiffResult {
+  std::string text;
+  ExitStatus status = ExitStatus::Success;
+};
+
+/// On the path that the values of the command lead along.
+DiffResult compare_once(const revisions::RevisionPair& pair, const revisions::CompareOptions& compare_options,
+                        const DiffCommandOptions& options) {
+  const Language language = options.reader_language();
+  const revisions::RevisionComparison compared = revisions::compare(pair, compare_options);
+  return {options.format == "json" ? json_of(compared, language)
+                                   : text_of(compared, {.language = language, .color = options.wants_color()}),
+          compared.is_same() ? ExitStatus::Success : ExitStatus::Findings};
+}
+
+/// What has not been compared may differ: then the result is not known.
+DiffResult compare_all_paths(const revisions::RevisionPair& pair, const revisions::CompareOptions& compare_options,
+                             const DiffCommandOptions& options) {
+  const comparison::TextStyle style{.language = options.reader_language(), .color = options.wants_color()};
+  const revisions::PathComparison compared =
+      revisions::compare_on_paths(pair, compare_options, set_registers(options), style);
+  const ExitStatus same = compared.is_complete() ? ExitStatus::Success : ExitStatus::Failure;
+  return {options.format == "json" ? json_of(compared) : text_of(compared, style),
+          compared.is_same() ? same : ExitStatus::Findings};
+}
+
 plot::PlotSubject subject_of(const DiffCommandOptions& options, const std::string& file,
-                             const ComparedProgram& program) {
+                             const revisions::Revision& revision, const ProgramMachine& machine) {
   return {.name = is_standard_input(file) ? "<stdin>" : std::filesystem::path(file).filename().generic_string(),
-          .program = program.source.text(),
-          .home = program.machine.setup.home,
-          .tools = plot::plot_tools(program.machine),
+          .program = revision.text,
+          .home = revision.setup.home,
+          .tools = plot::plot_tools(machine.machine()),
           .page = plot::kPageTemplate,
           .language = options.reader_language()};
 }
 
-void write_page(system::OutputFile& output, const DiffCommandOptions& options,
-                const std::array<ComparedProgram, 2>& programs, const running::RunOptions& run,
-                const comparison::ComparedRuns& runs, double tolerance) {
-  const auto& [old_program, new_program] = programs;
-  const plot::PlotSubject old_subject = subject_of(options, options.old_file, old_program);
-  const plot::PlotSubject new_subject = subject_of(options, options.new_file, new_program);
-  running::RunOptions old_options = run;
-  running::RunOptions new_options = run;
-  old_options.setup = old_program.machine.setup;
-  new_options.setup = new_program.machine.setup;
-  overlay::write_page(output, {old_subject, old_options, old_program.machine.timed},
-                      {new_subject, new_options, new_program.machine.timed}, runs, tolerance);
-}
-
-comparison::RecordedRun record(const ComparedProgram& program, running::RunOptions run) {
-  run.setup = program.machine.setup;
-  return comparison::record(program.source.text(), run, program.machine.timed);
+/// Both programs on one path each, as a page.
+ExitStatus write_page(const DiffCommandOptions& options, const revisions::RevisionPair& pair,
+                      const std::array<ProgramMachine, 2>& machines, const revisions::CompareOptions& compare_options) {
+  const plot::PlotSubject old_subject = subject_of(options, options.old_file, pair.old_revision, machines[0]);
+  const plot::PlotSubject new_subject = subject_of(options, options.new_file, pair.new_revision, machines[1]);
+  running::RunOptions old_run = compare_options.run;
+  running::RunOptions new_run = compare_options.run;
+  old_run.setup = pair.old_revision.setup;
+  new_run.setup = pair.new_revision.setup;
+  const revisions::RevisionComparison compared = revisions::compare(pair, compare_options);
+  const overlay::ShownComparison shown{
+      .old_run = compared.old_run.recorded,
+      .new_run = compared.new_run.recorded,
+      .facts = overlay::comparison_facts(to_json(compared, Language::English), to_json(compared, Language::Italian)),
+      .tolerance = compare_options.comparison.tolerance};
+  const bool is_written = write_result(options, [&](system::OutputFile& output) {
+    overlay::write_page(output, {old_subject, old_run, pair.old_revision.machine},
+                        {new_subject, new_run, pair.new_revision.machine}, shown);
+  });
+  if (!is_written) return ExitStatus::Failure;
+  return compared.is_same() ? ExitStatus::Success : ExitStatus::Findings;
 }
 
 ExitStatus compare_files(DiffCommandOptions options) {
-  using configuration::Configurations;
-  Configurations found(options.source, options.reader_language());
-  Configurations given({.file = options.machine, .none = !options.machine}, options.reader_language());
-  std::vector<const configuration::MachineConfiguration*> machines;
-  std::vector<std::filesystem::path> files;
-  for (const std::string* const file : {&options.old_file, &options.new_file}) {
-    const std::filesystem::path program = is_standard_input(*file) ? "" : *file;
-    const configuration::Configuration& configuration = found.in_folder(program.parent_path());
-    files.push_back(configuration.file);
-    if (options.language.empty() && configuration.language)
-      options.language = dialect::name_of(*configuration.language);
-    machines.push_back(&(options.machine ? given.in_folder(program.parent_path()) : configuration).machine);
-  }
-  bool is_right = true;
-  for (const Configurations* const read : {&found, &given})
-    for (const std::string& mistake : read->mistakes(options.reader_language())) {
-      std::cerr << mistake << '\n';
-      is_right = false;
-    }
-  if (!is_right) return ExitStatus::Failure;
-  const Language language = options.reader_language();
-  running::RunOptions run;
-  if (const auto problem = command_line::set_run_values(options.values, language, run)) {
-    complain(*problem);
+  configuration::Configurations found(options.source, options.reader_language());
+  configuration::Scenes scenes(options.reader_language());
+  const auto machines = find_machines(options, scenes, found);
+  if (!machines) return ExitStatus::Failure;
+  const auto compare_options = read_compare_options(options);
+  if (!compare_options || !can_write_page(options) ||
+      !is_apart(options, {(*machines)[0].configuration->file, (*machines)[1].configuration->file}))
     return ExitStatus::Failure;
-  }
-  const auto comparison_options = read_comparison_options(options);
-  if (!comparison_options || !can_write_page(options) || !is_apart(options, files)) return ExitStatus::Failure;
   if (is_standard_input(options.old_file) && is_standard_input(options.new_file)) {
-    complain(kOneStandardInput.in(language));
+    complain(kOneStandardInput.in(options.reader_language()));
     return ExitStatus::Failure;
   }
-  auto sources = read_sources(options);
+  const auto sources = read_sources(options);
   if (!sources) return ExitStatus::Failure;
-  const std::array<ComparedProgram, 2> programs{ComparedProgram{std::move((*sources)[0]), *machines[0]},
-                                                ComparedProgram{std::move((*sources)[1]), *machines[1]}};
-  const comparison::RecordedRun old_run = record(programs[0], run);
-  const comparison::RecordedRun new_run = record(programs[1], run);
-  const std::vector<comparison::BehaviorChange> changes = comparison::compare(old_run, new_run, *comparison_options);
-  const comparison::ComparedRuns compared{old_run, new_run, changes};
-  const bool is_written = write_result(options, [&](system::OutputFile& output) {
-    if (options.format == "html") {
-      write_page(output, options, programs, run, compared, comparison_options->tolerance);
-    } else {
-      output.write(options.format == "json" ? json_of(compared, language) : text_of(compared, language));
-    }
-  });
-  if (!is_written) return ExitStatus::Failure;
-  return changes.empty() ? ExitStatus::Success : ExitStatus::Findings;
+  const auto revision = [&](std::size_t side) {
+    const ProgramMachine& machine = (*machines)[side];
+    return revisions::Revision{(*sources)[side].text(), machine.machine().timed, machine.machine().setup,
+                               machine.selection, machine.scene.get()};
+  };
+  const revisions::Revision old_revision = revision(0);
+  const revisions::Revision new_revision = revision(1);
+  const revisions::RevisionPair pair{old_revision, new_revision};
+  if (options.format == "html") return write_page(options, pair, *machines, *compare_options);
+  const DiffResult result = options.all_paths ? compare_all_paths(pair, *compare_options, options)
+                                              : compare_once(pair, *compare_options, options);
+  const bool is_written = write_result(options, [&](system::OutputFile& output) { output.write(result.text); });
+  return is_written ? result.status : ExitStatus::Failure;
 }
 
 ExitStatus diff_main(int argc, char** argv) {
@@ -287,6 +389,13 @@ ExitStatus diff_main(int argc, char** argv) {
           {"What does not count: feed, speed, time, comments", "Che cosa non conta: feed, speed, time, comments"})
       .takes_one();
   program.suggest("--ignore", {"feed", "speed", "time", "comments"});
+  program.add_flag(
+      "--verify", options.verify,
+      {"Compare contacts and removed material as well", "Confronta anche i contatti e il materiale asportato"});
+  program.add_flag("--all-paths", options.all_paths,
+                   {"Compare on every path that the IFs tell apart", "Confronta su ogni via che gli IF distinguono"});
+  program.add_choice("--color", options.color, {"auto", "always", "never"}, {"WHEN", "QUANDO"},
+                     {"auto, always or never (else auto)", "auto, always o never (altrimenti auto)"});
   command_line::add_run_values(program, options.values);
   program.add_option(
       "--machine", options.machine, command_line::kFileValue,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -190,9 +192,83 @@ void ChangeList::close_feed() {
 std::vector<BehaviorChange> ChangeList::take() {
   close_shift();
   close_feed();
+  name_turned_frames();
   join_moved_blocks();
   sort();
   return std::move(changes_);
+}
+
+/// Whether two motions are the same, each in the frame that is in force there.
+bool ChangeList::is_by_frames(const MachineAction& left, const MachineAction& right) const {
+  if (!left.is_motion() || !right.is_motion()) return false;
+  const geometry::Frame& old_frame = runs_.a.frames[left.frame].frame;
+  const geometry::Frame& new_frame = runs_.b.frames[right.frame].frame;
+  const auto is_same = [&](const Vec3& from_a, const Vec3& from_b) {
+    return (new_frame.to_outer(old_frame.to_inner(from_a)) - from_b).norm() <= options_.tolerance;
+  };
+  if (std::max(std::abs(left.to.b - right.to.b), std::abs(left.to.c - right.to.c)) > options_.tolerance) return false;
+  if (!is_same(left.to.tip, right.to.tip)) return false;
+  const bool is_arc = left.arc != MachineAction::kNone;
+  if (!is_arc || right.arc == MachineAction::kNone) return is_arc == (right.arc != MachineAction::kNone);
+  const ActionArc& left_arc = runs_.a.arcs[left.arc];
+  const ActionArc& right_arc = runs_.b.arcs[right.arc];
+  const Vec3 normal = new_frame.axes * old_frame.axes.transpose() * left_arc.normal;
+  const double turn = std::abs(left_arc.sweep_deg - right_arc.sweep_deg) / 180 * std::numbers::pi;
+  return is_same(left_arc.center, right_arc.center) && is_same(left.from.tip, right.from.tip) &&
+         normal.isApprox(right_arc.normal) && turn * (left.from.tip - left_arc.center).norm() <= options_.tolerance;
+}
+
+/// Whether a frame alone makes the difference: from the first motion to the last one the same frame of each run is in
+/// force, and in it they are the same.
+bool ChangeList::is_by_frames(const ActionRanges& at) const {
+  if (at.a_begin == at.a_end || at.a_end - at.a_begin != at.b_end - at.b_begin) return false;
+  const std::uint32_t old_frame = a(at.a_begin).frame;
+  const std::uint32_t new_frame = b(at.b_begin).frame;
+  for (std::size_t i = at.a_begin, k = at.b_begin; i < at.a_end; ++i, ++k) {
+    if (a(i).frame != old_frame || b(k).frame != new_frame) return false;
+    if (a(i).is_motion() || b(k).is_motion() ? !is_by_frames(a(i), b(k)) : !is_same_effect(runs_, a(i), b(k)))
+      return false;
+  }
+  return true;
+}
+
+/// In a frame that is turned, each motion is moved otherwise. Together they are one change.
+void ChangeList::name_turned_frames() {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> known;  // The first changes by their frames.
+  std::vector<bool> is_joined(changes_.size());
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    BehaviorChange& change = changes_[i];
+    if (change.kind != ChangeKind::Moved && change.kind != ChangeKind::Shape) continue;
+    const ActionRanges& at = places_[i];
+    if (!is_by_frames(at)) continue;
+    const ActionFrame& old_frame = runs_.a.frames[a(at.a_begin).frame];
+    const ActionFrame& new_frame = runs_.b.frames[b(at.b_begin).frame];
+    if (old_frame.frame.axes.isApprox(new_frame.frame.axes)) continue;
+    const auto [first, is_new] = known.emplace(std::pair(a(at.a_begin).frame, b(at.b_begin).frame), i);
+    if (is_new) {
+      change.kind = ChangeKind::Frame;
+      change.shift.reset();
+      change.old_cause = old_frame.line;
+      change.new_cause = new_frame.line;
+      continue;
+    }
+    is_joined[i] = true;
+    BehaviorChange& whole = changes_[first->second];
+    ActionRanges& all = places_[first->second];
+    all = {std::min(all.a_begin, at.a_begin), std::max(all.a_end, at.a_end), std::min(all.b_begin, at.b_begin),
+           std::max(all.b_end, at.b_end)};
+    whole.distance =
+        whole.distance && change.distance ? std::optional(std::max(*whole.distance, *change.distance)) : std::nullopt;
+  }
+  for (const auto& [frames, first] : known) {
+    BehaviorChange& whole = changes_[first];
+    const ActionRanges& all = places_[first];
+    whole.old_lines = lines_of(runs_.a, all.a_begin, all.a_end);
+    whole.new_lines = lines_of(runs_.b, all.b_begin, all.b_end);
+    whole.old_motions = motion_count(runs_.a, all.a_begin, all.a_end);
+    whole.new_motions = motion_count(runs_.b, all.b_begin, all.b_end);
+  }
+  remove(is_joined);
 }
 
 /// Motions that are removed in one place and added in another one have another order.
@@ -213,9 +289,13 @@ void ChangeList::join_moved_blocks() {
       break;
     }
   }
+  remove(is_joined);
+}
+
+void ChangeList::remove(const std::vector<bool>& is_removed) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < changes_.size(); ++i) {
-    if (is_joined[i]) continue;
+    if (is_removed[i]) continue;
     if (kept != i) changes_[kept] = std::move(changes_[i]);
     places_[kept++] = places_[i];
   }

@@ -62,7 +62,11 @@ class ChangeList {
   const MachineAction& b(std::size_t i) const { return runs_.b.actions[i]; }
   void close_shift();
   void close_feed();
+  void name_turned_frames();
+  bool is_by_frames(const ActionRanges& at) const;
+  bool is_by_frames(const MachineAction& left, const MachineAction& right) const;
   void join_moved_blocks();
+  void remove(const std::vector<bool>& is_removed);
   bool is_same_block(const ActionRanges& removed, const ActionRanges& added) const;
   void sort();
 

@@ -89,11 +89,35 @@ std::vector<BehaviorChange> compare(const RecordedRun& old_run, const RecordedRu
     return compare(without_ignored(old_run, options), without_ignored(new_run, options), rest);
   }
   const bool is_swapped = is_before(new_run, old_run);
-  const RunPair runs{is_swapped ? new_run : old_run, is_swapped ? old_run : new_run, options.tolerance};
+  WorkBudget budget;
+  const RunPair runs{is_swapped ? new_run : old_run, is_swapped ? old_run : new_run, options.tolerance, &budget};
   std::vector<BehaviorChange> changes = changes_between(runs, options);
   if (!is_swapped) return changes;
   for (BehaviorChange& change : changes) change = mirrored(std::move(change));
   return changes;
+}
+
+std::vector<AlignedStep> aligned_steps(const RecordedRun& old_run, const RecordedRun& new_run, double tolerance) {
+  const bool is_swapped = is_before(new_run, old_run);
+  const RunPair runs{is_swapped ? new_run : old_run, is_swapped ? old_run : new_run, tolerance};
+  std::vector<AlignedStep> steps;
+  for (const AlignedPiece& piece : align(runs)) {
+    if (piece.kind != AlignedPiece::Kind::Same) {
+      steps.push_back({piece.a_begin, piece.a_end, piece.b_begin, piece.b_end, false});
+      continue;
+    }
+    for (PlaceInBoth place{piece.a_begin, piece.b_begin}; place.a < piece.a_end;) {
+      const PlaceInBoth next = same_step(runs, place, piece.shift).value_or(PlaceInBoth{place.a + 1, place.b + 1});
+      steps.push_back({place.a, next.a, place.b, next.b, true});
+      place = next;
+    }
+  }
+  if (!is_swapped) return steps;
+  for (AlignedStep& step : steps) {
+    std::swap(step.old_begin, step.new_begin);
+    std::swap(step.old_end, step.new_end);
+  }
+  return steps;
 }
 
 }  // namespace isocnc::comparison

@@ -74,4 +74,17 @@ bool is_before(const RecordedRun& left, const RecordedRun& right);
 std::vector<BehaviorChange> compare(const RecordedRun& old_run, const RecordedRun& new_run,
                                     const ComparisonOptions& options);
 
+/// The next actions of both runs that belong together, as ranges of their indices: both do the same, or nothing in it
+/// fits together, and one range may be empty.
+struct AlignedStep {
+  std::size_t old_begin = 0;
+  std::size_t old_end = 0;
+  std::size_t new_begin = 0;
+  std::size_t new_end = 0;
+  bool is_same = false;
+};
+
+/// Both runs side by side, from their starts to their ends.
+std::vector<AlignedStep> aligned_steps(const RecordedRun& old_run, const RecordedRun& new_run, double tolerance);
+
 }  // namespace isocnc::comparison

@@ -219,7 +219,7 @@ class MotionNamer {
     for (Vec3& point : old_chain) point += shift;
     return distance_of(
         old_chain, chain_of(runs_.b, std::span(runs_.b.actions).subspan(at.b_begin, at.b_end - at.b_begin), deviation),
-        options_.tolerance / 4);
+        options_.tolerance / 4, runs_.budget == nullptr ? nullptr : &runs_.budget->distances);
   }
 
   /// The distance where only B and C differ is none.

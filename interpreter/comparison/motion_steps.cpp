@@ -139,9 +139,12 @@ std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart
   MotionBlock block;
   block.a_actions = take_motions(runs.a, at.a_begin, at.a_end, block.a);
   block.b_actions = take_motions(runs.b, at.b_begin, at.b_end, block.b);
-  const RunPair motions{block.a, block.b, runs.tolerance};
+  const RunPair motions{block.a, block.b, runs.tolerance, runs.budget};
   const std::size_t a_count = block.a_actions.size();
   const std::size_t b_count = block.b_actions.size();
+  if (runs.budget != nullptr &&
+      !runs.budget->take_cells(at.a_end - at.a_begin - a_count, at.b_end - at.b_begin - b_count))
+    return std::nullopt;
   std::vector<AlignedPiece> pieces;
   if (a_count < at.a_end - at.a_begin || b_count < at.b_end - at.b_begin) {
     // What stands between the motions has kept them apart.

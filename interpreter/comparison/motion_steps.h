@@ -55,7 +55,8 @@ struct DifferentPart {
 /// piece: `index` becomes that of the part's last piece.
 DifferentPart part_at(const std::vector<AlignedPiece>& pieces, std::size_t& index);
 
-/// The motions of a part, step by step. None for a part that is too large.
+/// The motions of a part, step by step. None for a part that is too large, or if the budget is used up, also for what
+/// stands between the motions (effect_steps).
 std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart& part);
 
 }  // namespace isocnc::comparison

@@ -202,8 +202,9 @@ class LineAligner {
 std::vector<AlignedLines> aligned_lines(const AlignedProgram& old_program, const AlignedProgram& new_program,
                                         double tolerance) {
   const bool is_swapped = comparison::is_before(new_program.run, old_program.run);
+  comparison::WorkBudget budget;
   const comparison::RunPair runs{is_swapped ? new_program.run : old_program.run,
-                                 is_swapped ? old_program.run : new_program.run, tolerance};
+                                 is_swapped ? old_program.run : new_program.run, tolerance, &budget};
   LineAligner aligner(old_program, new_program);
   for (const LineTie& tie : LineTies(runs).take())
     aligner.take(is_swapped ? LineTie{tie.b_first, tie.b_last, tie.a_first, tie.a_last} : tie);

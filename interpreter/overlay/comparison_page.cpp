@@ -1,7 +1,5 @@
 #include "interpreter/overlay/comparison_page.h"
 
-#include <nlohmann/json.hpp>
-
 #include "interpreter/plot/packed_bytes.h"
 #include "interpreter/plot/page_plot.h"
 #include "interpreter/plot/path_recording.h"
@@ -11,13 +9,11 @@ namespace isocnc::overlay {
 
 using OrderedJson = nlohmann::ordered_json;
 
-std::string comparison_facts(const comparison::ComparedRuns& runs) {
-  OrderedJson facts = OrderedJson::parse(comparison::json_of(runs, dialect::Language::English));
-  const OrderedJson italian = OrderedJson::parse(comparison::json_of(runs, dialect::Language::Italian));
-  OrderedJson& changes = facts["changes"];
+std::string comparison_facts(OrderedJson english, const OrderedJson& italian) {
+  OrderedJson& changes = english.at("changes");
   for (std::size_t i = 0; i < changes.size(); ++i)
     changes[i]["text"] = {{"en", changes[i]["text"]}, {"it", italian.at("changes").at(i).at("text")}};
-  return facts.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  return english.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 std::string alignment_bytes(const std::vector<AlignedLines>& lines) {
@@ -48,13 +44,14 @@ static void add_path(plot::PageFile& page, std::string_view prefix, const ShownP
 }
 
 void write_page(system::OutputFile& output, const ShownProgram& old_program, const ShownProgram& new_program,
-                const comparison::ComparedRuns& runs, double tolerance) {
+                const ShownComparison& shown) {
   plot::PageFile page(output, new_program.subject.page, old_program.subject.name + " → " + new_program.subject.name);
   add_path(page, "", new_program);
   add_path(page, "old-", old_program);
-  page.add_json("comparison", comparison_facts(runs));
-  page.add_bytes("alignment", alignment_bytes(aligned_lines({old_program.subject.program, runs.old_run},
-                                                            {new_program.subject.program, runs.new_run}, tolerance)));
+  page.add_json("comparison", shown.facts);
+  page.add_bytes("alignment",
+                 alignment_bytes(aligned_lines({old_program.subject.program, shown.old_run},
+                                               {new_program.subject.program, shown.new_run}, shown.tolerance)));
   page.finish();
 }
 
