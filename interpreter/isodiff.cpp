@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -29,6 +30,9 @@
 #include "interpreter/diff_markdown.h"
 #include "interpreter/diff_operand.h"
 #include "interpreter/git/external_diff.h"
+#include "interpreter/overlay/comparison_page.h"
+#include "interpreter/plot/page_template.h"
+#include "interpreter/plot/plot_tools.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/same_file.h"
@@ -66,10 +70,12 @@ struct DiffCommandOptions {
   Language reader_language() const { return dialect::language_named(language).value_or(system::user_language()); }
   bool has_output_file() const { return !output.empty() && output != "-"; }
   bool wants_color() const {
-    if (format != "text") return false;
     if (color != "auto") return color == "always";
     // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets a variable.
     return !has_output_file() && system::is_terminal(system::kStandardOutput) && std::getenv("NO_COLOR") == nullptr;
+  }
+  comparison::TextStyle text_style() const {
+    return {.language = reader_language(), .color = format == "text" && wants_color()};
   }
 };
 
@@ -86,6 +92,14 @@ constexpr Text kGitArguments{"--git is followed by the arguments that git gives,
                              "--git è seguito dagli argomenti che dà git, 1, 7 o 9, e da nessuna opzione"};
 constexpr Text kGitFormat{"--git writes text or markdown, to standard output",
                           "--git scrive text o markdown, sullo standard output"};
+constexpr Text kNoPage{"this isodiff writes no html: it was built without npm, which that takes",
+                       "questo isodiff non scrive html: è stato compilato senza npm, che serve per questo"};
+constexpr Text kOnePath{"--format html shows both programs on one path: name it by --vgpl instead of --all-paths",
+                        "--format html mostra i due programmi su una sola via: indicarla con --vgpl invece di "
+                        "--all-paths"};
+constexpr Text kPageToTerminal{"--format html writes a page, which a terminal does not show: name a file with --output",
+                               "--format html scrive una pagina, che un terminale non mostra: indicare un file con "
+                               "--output"};
 constexpr Text kOverwrites{"{}: this would overwrite {}", "{}: così si sovrascriverebbe {}"};
 
 void complain(std::string_view what) { command_line::complain("isodiff", what); }
@@ -158,25 +172,39 @@ bool is_apart(const DiffCommandOptions& options, const DiffOperands& operands,
   return false;
 }
 
-bool write_result(const DiffCommandOptions& options, std::string_view text) {
+/// Whether a page can be written, and somebody can open it; false after an error message.
+bool can_write_page(const DiffCommandOptions& options) {
+  if (options.format != "html") return true;
+  if (plot::kPageTemplate.empty()) {
+    complain(kNoPage.in(options.reader_language()));
+    return false;
+  }
+  if (options.all_paths) {
+    complain(kOnePath.in(options.reader_language()));
+    return false;
+  }
+  if (options.has_output_file() || !system::is_terminal(system::kStandardOutput)) return true;
+  complain(kPageToTerminal.in(options.reader_language()));
+  return false;
+}
+
+/// Opens the output, lets `write` write to it, and closes it; false after an error message.
+bool write_result(const DiffCommandOptions& options, const std::function<void(system::OutputFile&)>& write) {
   std::optional<system::OutputFile> output;
   if (options.has_output_file()) {
     output.emplace(std::filesystem::path(options.output));
   } else {
     output.emplace(system::kStandardOutput);
   }
-  output->write(text);
+  write(*output);
   const std::optional<std::string> problem =
       system::commit(*output, options.has_output_file() ? options.output : "<stdout>", options.reader_language());
   if (problem) complain(*problem);
   return !problem;
 }
 
-/// Writes what git shows of a file among others.
-ExitStatus write_for_git(const DiffCommandOptions& options, std::string_view heading, std::string_view text) {
-  const std::string_view gap = git::diffs_before() > 0 ? "\n" : "";
-  const std::string title = options.format == "markdown" ? "" : text::printable(heading) + '\n';
-  return write_result(options, fmt::format("{}{}{}", gap, title, text)) ? ExitStatus::Success : ExitStatus::Failure;
+bool write_text(const DiffCommandOptions& options, std::string_view text) {
+  return write_result(options, [text](system::OutputFile& output) { output.write(text); });
 }
 
 /// What one of the programs runs on, and what is shown of it.
@@ -208,19 +236,19 @@ std::optional<std::array<ProgramMachine, 2>> find_machines(DiffCommandOptions& o
   selection::SettingsFinder settings(found, {});
   std::vector<ProgramMachine> machines;
   for (const DiffOperand& operand : operands) {
-    const std::filesystem::path& program = operand.place;
-    const configuration::Configuration& configuration = found.in_folder(program.parent_path());
+    const std::filesystem::path folder = operand.place.parent_path();
+    const configuration::Configuration& configuration = found.in_folder(folder);
     if (options.language.empty() && configuration.language)
       options.language = dialect::name_of(*configuration.language);
     auto surrounded = std::make_unique<configuration::Configuration>(configuration);
-    if (options.machine) surrounded->machine = given.in_folder(program.parent_path()).machine;
-    machines.push_back({std::move(surrounded), settings.of(program).selection, nullptr});
+    if (options.machine) surrounded->machine = given.in_folder(folder).machine;
+    machines.push_back({std::move(surrounded), settings.of(operand.place).selection, nullptr});
   }
   if (has_mistakes({found.mistakes(options.reader_language()), given.mistakes(options.reader_language())}))
     return std::nullopt;
   if (options.verify && !options.source.none) {
-    machines[0].scene = scenes.of(*machines[0].configuration, operands[0].place);
-    machines[1].scene = scenes.of(*machines[1].configuration, operands[1].place);
+    for (std::size_t i = 0; i < machines.size(); ++i)
+      machines[i].scene = scenes.of(*machines[i].configuration, operands[i].place);
   }
   if (has_mistakes({scenes.mistakes(options.reader_language())})) return std::nullopt;
   if (options.verify)
@@ -255,7 +283,13 @@ check::RegisterSet set_registers(const DiffCommandOptions& options) {
   return registers;
 }
 
-/// The result as text or JSON, and the exit status.
+/// What is shown in place of a comparison.
+std::string shown_obstacle(std::string_view heading, std::string_view reason, const DiffCommandOptions& options) {
+  const std::string text = text::printable(reason) + '\n';
+  return options.format == "markdown" ? diff_markdown(heading, text) : text;
+}
+
+/// The result in the format of the command, and the exit status.
 struct DiffResult {
   std::string text;
   ExitStatus status = ExitStatus::Success;
@@ -264,28 +298,61 @@ struct DiffResult {
 /// On the path that the values of the command lead along.
 DiffResult compare_once(const revisions::RevisionPair& pair, const revisions::CompareOptions& compare_options,
                         const DiffCommandOptions& options) {
-  const Language language = options.reader_language();
   const revisions::RevisionComparison compared = revisions::compare(pair, compare_options);
-  return {options.format == "json" ? json_of(compared, language)
-                                   : text_of(compared, {.language = language, .color = options.wants_color()}),
-          compared.is_same() ? ExitStatus::Success : ExitStatus::Findings};
+  return {
+      options.format == "json" ? json_of(compared, options.reader_language()) : text_of(compared, options.text_style()),
+      compared.is_same() ? ExitStatus::Success : ExitStatus::Findings};
 }
 
 /// What has not been compared may differ: then the result is not known.
 DiffResult compare_all_paths(const revisions::RevisionPair& pair, const revisions::CompareOptions& compare_options,
                              const DiffCommandOptions& options) {
-  const comparison::TextStyle style{.language = options.reader_language(), .color = options.wants_color()};
   const revisions::PathComparison compared =
-      revisions::compare_on_paths(pair, compare_options, set_registers(options), style);
+      revisions::compare_on_paths(pair, compare_options, set_registers(options), options.text_style());
   const ExitStatus same = compared.is_complete() ? ExitStatus::Success : ExitStatus::Failure;
-  return {options.format == "json" ? json_of(compared) : text_of(compared, style),
+  return {options.format == "json" ? json_of(compared) : text_of(compared, options.text_style()),
           compared.is_same() ? same : ExitStatus::Findings};
 }
 
-/// What is shown in place of a comparison.
-std::string shown_obstacle(std::string_view heading, std::string_view reason, const DiffCommandOptions& options) {
-  const std::string text = text::printable(reason) + '\n';
-  return options.format == "markdown" ? diff_markdown(heading, text) : text;
+plot::PlotSubject subject_of(const DiffCommandOptions& options, const DiffOperand& operand,
+                             const revisions::Revision& revision, const ProgramMachine& machine) {
+  return {.name = operand.file.empty() ? operand.name : std::filesystem::path(operand.file).filename().generic_string(),
+          .program = revision.text,
+          .home = revision.setup.home,
+          .tools = plot::plot_tools(machine.machine()),
+          .page = plot::kPageTemplate,
+          .language = options.reader_language()};
+}
+
+/// Both programs on one path each, as a page.
+ExitStatus write_page(const DiffCommandOptions& options, const DiffOperands& operands,
+                      const revisions::RevisionPair& pair, const std::array<ProgramMachine, 2>& machines,
+                      const revisions::CompareOptions& compare_options) {
+  const plot::PlotSubject old_subject = subject_of(options, operands[0], pair.old_revision, machines[0]);
+  const plot::PlotSubject new_subject = subject_of(options, operands[1], pair.new_revision, machines[1]);
+  running::RunOptions old_run = compare_options.run;
+  running::RunOptions new_run = compare_options.run;
+  old_run.setup = pair.old_revision.setup;
+  new_run.setup = pair.new_revision.setup;
+  const revisions::RevisionComparison compared = revisions::compare(pair, compare_options);
+  const overlay::ShownComparison shown{
+      .old_run = compared.old_run.recorded,
+      .new_run = compared.new_run.recorded,
+      .facts = overlay::comparison_facts(to_json(compared, Language::English), to_json(compared, Language::Italian)),
+      .tolerance = compare_options.comparison.tolerance};
+  const bool is_written = write_result(options, [&](system::OutputFile& output) {
+    overlay::write_page(output, {old_subject, old_run, pair.old_revision.machine},
+                        {new_subject, new_run, pair.new_revision.machine}, shown);
+  });
+  if (!is_written) return ExitStatus::Failure;
+  return compared.is_same() ? ExitStatus::Success : ExitStatus::Findings;
+}
+
+/// Writes what git shows of a file among others.
+ExitStatus write_for_git(const DiffCommandOptions& options, std::string_view heading, std::string_view text) {
+  const std::string_view gap = git::diffs_before() > 0 ? "\n" : "";
+  const std::string title = options.format == "markdown" ? "" : text::printable(heading) + '\n';
+  return write_text(options, fmt::format("{}{}{}", gap, title, text)) ? ExitStatus::Success : ExitStatus::Failure;
 }
 
 /// Compares two programs and writes what differs. `diff` is what git has asked, if it has.
@@ -295,18 +362,18 @@ ExitStatus compare_files(DiffCommandOptions options, const DiffOperands& operand
   configuration::Scenes scenes(options.reader_language());
   const auto machines = find_machines(options, operands, scenes, found);
   if (!machines) return ExitStatus::Failure;
-  const Language language = options.reader_language();
   const auto compare_options = read_compare_options(options);
-  if (!compare_options ||
+  if (!compare_options || !can_write_page(options) ||
       !is_apart(options, operands, {(*machines)[0].configuration->file, (*machines)[1].configuration->file}))
     return ExitStatus::Failure;
+  const Language language = options.reader_language();
   if (operands[0].is_standard_input() && operands[1].is_standard_input()) {
     complain(kOneStandardInput.in(language));
     return ExitStatus::Failure;
   }
   const std::string heading =
       diff ? diff->heading(language) : fmt::format("{} -> {}", operands[0].name, operands[1].name);
-  auto read = read_sources(operands, language);
+  const auto read = read_sources(operands, language);
   if (const auto* const problem = std::get_if<std::string>(&read)) {
     if (diff) return write_for_git(options, heading, shown_obstacle(heading, *problem, options));
     complain(*problem);
@@ -321,14 +388,14 @@ ExitStatus compare_files(DiffCommandOptions options, const DiffOperands& operand
   const revisions::Revision old_revision = revision(0);
   const revisions::Revision new_revision = revision(1);
   const revisions::RevisionPair pair{old_revision, new_revision};
+  if (options.format == "html") return write_page(options, operands, pair, *machines, *compare_options);
   DiffResult result = options.all_paths ? compare_all_paths(pair, *compare_options, options)
                                         : compare_once(pair, *compare_options, options);
   if (options.format == "markdown") result.text = diff_markdown(heading, result.text);
-  if (diff) {
-    const ExitStatus written = write_for_git(options, heading, result.text);
-    return options.has_exit_code && written == ExitStatus::Success ? result.status : written;
-  }
-  return write_result(options, result.text) ? result.status : ExitStatus::Failure;
+  if (!diff) return write_text(options, result.text) ? result.status : ExitStatus::Failure;
+  const ExitStatus written = write_for_git(options, heading, result.text);
+  const bool tells = options.has_exit_code && written == ExitStatus::Success && result.status == ExitStatus::Findings;
+  return tells ? ExitStatus::Findings : written;
 }
 
 /// Compares the programs that the command names.
@@ -403,8 +470,8 @@ ExitStatus diff_main(int argc, char** argv) {
   program.add_option(
       "--tolerance", options.tolerance, {"MM", "MM"},
       {"What is this near is the same (else 0.001)", "Ciò che è vicino così è lo stesso (altrimenti 0.001)"});
-  program.add_choice("--format", options.format, {"text", "json", "markdown"}, {"FORMAT", "FORMATO"},
-                     {"text, json or markdown (else text)", "text, json o markdown (altrimenti text)"});
+  program.add_choice("--format", options.format, {"text", "json", "html", "markdown"}, {"FORMAT", "FORMATO"},
+                     {"text, json, html or markdown (else text)", "text, json, html o markdown (altrimenti text)"});
   program.add_option("-o,--output", options.output, command_line::kFileValue,
                      {"Where to write; else to standard output", "Dove scrivere; altrimenti sullo standard output"});
   program

@@ -25,21 +25,7 @@ std::vector<BehaviorChange> changes_between(const RunPair& runs, const Compariso
       changes.compare_feeds_along(piece);
       continue;
     }
-    DifferentPart part{.actions = {piece.a_begin, piece.a_end, piece.b_begin, piece.b_end},
-                       .before = i == 0 ? Vec3(Vec3::Zero()) : pieces[i - 1].shift,
-                       .after = piece.shift,
-                       .is_closed = piece.kind == AlignedPiece::Kind::Closing};
-    if (!part.is_closed && i + 1 < pieces.size()) {
-      const AlignedPiece& next = pieces[i + 1];
-      part.after = next.shift;
-      part.is_closed = next.kind == AlignedPiece::Kind::Closing;
-      if (part.is_closed) {
-        part.actions.a_end = next.a_end;
-        part.actions.b_end = next.b_end;
-        ++i;
-      }
-    }
-    name_part(changes, part);
+    name_part(changes, part_at(pieces, i));
   }
   return changes.take();
 }
@@ -71,7 +57,8 @@ BehaviorChange mirrored(BehaviorChange change) {
   return change;
 }
 
-/// An order of runs that makes the result independent of which one is the old one.
+}  // namespace
+
 bool is_before(const RecordedRun& left, const RecordedRun& right) {
   if (left.actions.size() != right.actions.size()) return left.actions.size() < right.actions.size();
   const auto key = [](const RecordedRun& run, const MachineAction& action) {
@@ -93,8 +80,6 @@ bool is_before(const RecordedRun& left, const RecordedRun& right) {
   }
   return false;
 }
-
-}  // namespace
 
 std::vector<BehaviorChange> compare(const RecordedRun& old_run, const RecordedRun& new_run,
                                     const ComparisonOptions& options) {

@@ -67,6 +67,9 @@ struct ComparisonOptions {
   bool ignores_time = false;  ///< Dwells and exact stops.
 };
 
+/// An order of runs that makes the result independent of which one is the old one: the first one is aligned as `a`.
+bool is_before(const RecordedRun& left, const RecordedRun& right);
+
 /// Compares what the machine does in two runs. Swapping the runs gives the same changes, mirrored.
 std::vector<BehaviorChange> compare(const RecordedRun& old_run, const RecordedRun& new_run,
                                     const ComparisonOptions& options);

@@ -115,6 +115,23 @@ bool MotionBlock::is_same_path() const {
                      [](const MotionStep& step) { return step.kind == MotionStep::Kind::Same; });
 }
 
+DifferentPart part_at(const std::vector<AlignedPiece>& pieces, std::size_t& index) {
+  const AlignedPiece& piece = pieces[index];
+  DifferentPart part{.actions = {piece.a_begin, piece.a_end, piece.b_begin, piece.b_end},
+                     .before = index == 0 ? Vec3(Vec3::Zero()) : pieces[index - 1].shift,
+                     .after = piece.shift,
+                     .is_closed = piece.kind == AlignedPiece::Kind::Closing};
+  if (part.is_closed || index + 1 == pieces.size()) return part;
+  const AlignedPiece& next = pieces[index + 1];
+  part.after = next.shift;
+  part.is_closed = next.kind == AlignedPiece::Kind::Closing;
+  if (!part.is_closed) return part;
+  part.actions.a_end = next.a_end;
+  part.actions.b_end = next.b_end;
+  ++index;
+  return part;
+}
+
 std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart& part) {
   const ActionRanges& at = part.actions;
   const std::size_t closing = part.is_closed ? 1 : 0;

@@ -101,6 +101,56 @@ TEST_F(IsodiffCommand, WritesJson) {
   EXPECT_EQ(json::parse(diff({"--format", "json", "old.iso", "old.iso"}).out).at("changes"), json::array());
 }
 
+/// The text of a block of data in a page.
+std::string block_of(const std::string& page, const std::string& name) {
+  const std::size_t begin = page.find('>', page.find("<script id=\"data-" + name + "\"")) + 1;
+  return page.substr(begin, page.find("</script>", begin) - begin);
+}
+
+TEST_F(IsodiffCommand, WritesAPageWithBothPrograms) {
+  const CommandResult result = diff({"--format", "html", "--output", "page.html", "old.iso", "new.iso"});
+  if (result.err.find("npm") != std::string::npos) GTEST_SKIP() << "this isodiff writes no page";
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.status, 1);
+  const std::string page = text_of_file(folder_.path("page.html"));
+  EXPECT_TRUE(page.find("<title>old.iso → new.iso</title>") != std::string::npos);
+  json expected = json::parse(diff({"--format", "json", "old.iso", "new.iso"}).out);
+  const json italian = json::parse(diff({"--format", "json", "--lang", "it", "old.iso", "new.iso"}).out);
+  for (std::size_t i = 0; i < expected["changes"].size(); ++i)
+    expected["changes"][i]["text"] = {{"en", expected["changes"][i]["text"]}, {"it", italian["changes"][i]["text"]}};
+  EXPECT_EQ(json::parse(block_of(page, "comparison")), expected);
+  EXPECT_EQ(json::parse(block_of(page, "old-facts")).at("name"), "old.iso");
+  EXPECT_EQ(json::parse(block_of(page, "facts")).at("name"), "new.iso");
+  EXPECT_EQ(block_of(page, "alignment"), "AQEH");  // Seven lines beside seven.
+  EXPECT_NE(block_of(page, "old-points"), block_of(page, "points"));
+  for (const char* const name : {"steps", "turns", "program", "old-steps", "old-program"})
+    EXPECT_TRUE(page.find("<script id=\"data-" + std::string(name) + "\"") != std::string::npos) << name;
+  // The path is the one of isorun's page.
+  run_command({"isorun", "--no-config", "--plot", folder_.path("plot.html"), folder_.path("new.iso")});
+  EXPECT_EQ(block_of(page, "points"), block_of(text_of_file(folder_.path("plot.html")), "points"));
+}
+
+TEST_F(IsodiffCommand, WritesNoPageToATerminal) {
+  const std::string log = folder_.path("log");
+  const std::string command =
+      "cd " + folder_.path() + " && python3 -c \"import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(['" +
+      ISOCNC_BIN_DIR "/isodiff', '--format', 'html', 'old.iso', 'new.iso'])))\" </dev/null >" + log + " 2>&1";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_THAT(text_of_file(log), testing::AnyOf(HasSubstr("--output"), HasSubstr("npm")));
+}
+
+TEST_F(IsodiffCommand, WritesNoPageOverAProgram) {
+  EXPECT_EQ(diff({"--format", "html", "--output", "new.iso", "old.iso", "new.iso"}).status, 2);
+  EXPECT_EQ(text_of_file(folder_.path("new.iso")), kNew);
+  EXPECT_THAT(diff({"--format", "html", "--all-paths", "--output", "page.html", "old.iso", "new.iso"}).err,
+              testing::AnyOf(HasSubstr("--vgpl"), HasSubstr("npm")));
+  // Nothing is left of a page where a program cannot be read.
+  EXPECT_EQ(diff({"--format", "html", "--output", "page.html", "old.iso", "none.iso"}).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("page.html")));
+  EXPECT_EQ(diff({"--format", "html", "--output", "none/page.html", "old.iso", "new.iso"}).status, 2);
+}
+
 TEST_F(IsodiffCommand, ItsJsonFitsItsSchema) {
   folder_.write("error.iso", kOld.substr(0, kOld.size() - 4) + "G01\n");
   folder_.write("added.iso", "G00 X10\n" + kOld);
@@ -344,7 +394,7 @@ TEST_F(IsodiffCommand, RefusesMistakes) {
   EXPECT_EQ(refusal({"--vgpl", "x"}), "isodiff: --vgpl takes a plain number, such as -2.5, not x\n");
   EXPECT_EQ(refusal({"--set", "V31=1"}),
             "isodiff: --set takes a register and a plain number, V1=0 to V30=-2.5, not V31=1\n");
-  EXPECT_THAT(refusal({"--format", "html"}), HasSubstr("html"));
+  EXPECT_THAT(refusal({"--format", "pdf"}), HasSubstr("pdf"));
   const CommandResult result = diff({"old.iso", "none.iso"});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, StartsWith("isodiff: none.iso: "));
