@@ -314,6 +314,7 @@ void RunLoop::report_missed_line(std::size_t line, std::optional<std::uint64_t> 
 // --- To a difference
 
 void RunLoop::run_to_difference(difference::ReferenceProgram reference) {
+  notifier_.report_resumption();
   start(Activity::Comparing);
   const difference::ReferenceComparison comparison{.debuggee = state_.debuggee,
                                                    .options = run_options(state_.launch_options, state_.configuration),

@@ -24,6 +24,7 @@ TEST(Difference, RunsForwardToItAndSaysWhatItIs) {
   client.write("old.iso", kOld);
   client.stop_at_start(kPart);
   const Json stopped = client.run("isocnc/runToDifference", {{"path", "old.iso"}});
+  EXPECT_TRUE(client.has_event("continued")) << "the client does not know that the program has run";
   EXPECT_EQ(stopped.at("reason"), "difference");
   EXPECT_EQ(stopped.at("description"), "first difference: moved by X2, lines 10-11 of old.iso");
   EXPECT_EQ(client.line(), 7);
