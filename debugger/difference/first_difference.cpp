@@ -34,11 +34,12 @@ FirstDifference ReferenceComparison::find(const std::function<bool()>& stop) con
   const comparison::RecordedRun old_run = comparison::record(reference.text, old_options, reference.machine);
   if (stop()) return {};
   if (const std::string_view error = comparison::error_of(old_run); !error.empty())
-    return {.text = dialect::format(kStops, language, reference.name, old_run.actions.back().line + 1, error)};
+    return {.line = {},
+            .text = dialect::format(kStops, language, reference.name, old_run.actions.back().line + 1, error)};
   const comparison::RecordedRun new_run = comparison::record(debuggee->text().text(), new_options, machine);
   if (stop()) return {};
   const std::vector<BehaviorChange> changes = comparison::compare(old_run, new_run, {});
-  if (changes.empty()) return {.text = dialect::format(kSame, language, reference.name)};
+  if (changes.empty()) return {.line = {}, .text = dialect::format(kSame, language, reference.name)};
   // Jumps lead forward only, so the order of the lines is that of the run.
   const BehaviorChange& first = *std::min_element(
       changes.begin(), changes.end(),
