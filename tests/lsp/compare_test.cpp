@@ -127,6 +127,23 @@ TEST(Compare, OtherRequestsGoOnMeanwhileAndItCanBeCancelled) {
   EXPECT_EQ(session.response_to(asked).at("error").at("code"), -32800);
 }
 
+TEST(Compare, GivesAViewBothPathsWhereItWantsThem) {
+  Session session;
+  session.start();
+  session.open("file:///nowhere/old.iso", kOld);
+  session.open(kUri, "; new\n" + replaced(kOld, "Z-5", "Z-6"));
+  Json params = compare_params(kOld);
+  EXPECT_FALSE(session.request("isocnc/compare", params).contains("overlay"));
+  params["overlay"] = true;
+  const Json overlay = session.request("isocnc/compare", params).at("overlay");
+  EXPECT_EQ(overlay.at("facts").at("changes")[0].at("text").at("it"), "spostato di Z-1");
+  // One line that only the new program has, then nine beside nine.
+  EXPECT_EQ(overlay.at("alignment"), "AAEBAQEJ");
+  const Json path = session.request("isocnc/toolpath", {{"textDocument", {{"uri", "file:///nowhere/old.iso"}}}});
+  for (const char* const stream : {"steps", "points", "turns"})
+    EXPECT_EQ(overlay.at("old").at(stream), path.at(stream));
+}
+
 TEST(Compare, RefusesWhatHasNoText) {
   Session session;
   session.start();
