@@ -44,6 +44,14 @@ afterEach(async (context) => {
   writeFileSync(join(folder, 'failed.log'), editor.log);
 });
 
+/** A picture of what is there, once it is drawn. */
+async function keep(name) {
+  if (!pictures) return;
+  mkdirSync(pictures, { recursive: true });
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  await page.screenshot({ path: join(pictures, `vscode-${name}.png`) });
+}
+
 /** The lenses of the diff in front. */
 const lenses = () => editor.texts('.monaco-diff-editor .editor.modified .codelens-decoration');
 const lensesAre = (what, isRight) => eventually(lenses, what, (texts) => isRight(texts.join(' | ')));
@@ -63,12 +71,30 @@ test('lenses say what each hunk does otherwise than HEAD', async () => {
 test('the next hunk has its lenses, too', async () => {
   await editor.press('Alt+F5');
   await lensesAre('the change of the feed is not named', (all) => /T102003: moved by Z-0\.2/.test(all) && /T102003: F5000 instead of F4500/.test(all));
-  if (!pictures) return;
   await editor.press('Control+b');
-  mkdirSync(pictures, { recursive: true });
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  await page.screenshot({ path: join(pictures, 'vscode-behavior.png') });
+  await keep('behavior');
   await editor.press('Control+b');
+});
+
+test('the toolpath shows both programs of a diff', async () => {
+  await editor.command('ISOCNC: Show Toolpath');
+  const frame = await editor.toolpath();
+  const compared = () => frame.evaluate(() => globalThis.isocnc.comparison?.changes.map(({ text }) => text.en) ?? null);
+  await eventually(compared, 'the old path is not there', (texts) => texts?.includes('F5000 instead of F4500'));
+  assert.ok(await frame.evaluate(() => globalThis.isocnc.comparison.paths.old.seconds > globalThis.isocnc.path.seconds));
+  await keep('compared');
+  await frame.locator('#change-list [role=option]').first().click();
+  const shown = async () => {
+    await editor.focus();
+    return editor.place();
+  };
+  await eventually(shown, 'the line of the change is not shown', ({ line }) => line === 31);
+  // The program alone.
+  await editor.open('numbers.iso');
+  await eventually(compared, 'the old path stays', (texts) => texts === null);
+  await editor.open('pocket.iso');
+  await editor.command('ISOCNC: Compare Behavior with HEAD');
+  await eventually(compared, 'the old path does not come back', (texts) => texts?.length === 3);
 });
 
 test('lenses follow what is typed in the diff', async () => {

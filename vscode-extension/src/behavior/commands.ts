@@ -4,9 +4,10 @@ import { currentProgram, adviseOpen } from '../current_program';
 import { endingsOf } from '../environment';
 import { nameOf, uriOf } from '../files';
 import type { Server } from '../server';
+import { compare } from './comparing';
 import { summary } from './comparison';
 import { headOf } from './git';
-import { BehaviorLenses, compare, summaries } from './lenses';
+import { BehaviorLenses, summaries } from './lenses';
 import { SavedPrograms, savedUri } from './saved';
 
 export function activate(context: vscode.ExtensionContext, server: Server): void {

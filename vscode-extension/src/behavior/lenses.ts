@@ -1,7 +1,8 @@
 /** Lenses in diff editors of two programs, whoever has opened them: what each change does on the machine. */
 import * as vscode from 'vscode';
 import type { Server } from '../server';
-import { lensesOf, type Comparison, type Summaries } from './comparison';
+import { compare } from './comparing';
+import { lensesOf, type Summaries } from './comparison';
 import { shownDiffs } from './diffs';
 
 /** How long to wait for another edit, in ms. */
@@ -14,14 +15,6 @@ export const summaries = (): Summaries => ({
   many: vscode.l10n.t('{0} differences'),
   time: vscode.l10n.t('{0} s'),
 });
-
-/** What the new program does otherwise than the old one. */
-export function compare(server: Server, old: vscode.TextDocument, now: vscode.TextDocument, token?: vscode.CancellationToken): Promise<Comparison> {
-  // Versions of one file run on one machine; another file may have another isocnc.json above it.
-  const isOther = old.uri.scheme === now.uri.scheme && old.uri.path !== now.uri.path;
-  const withOld = { text: old.getText(), ...(isOther ? { uri: old.uri.toString() } : {}) };
-  return server.request<Comparison>('isocnc/compare', { textDocument: { uri: now.uri.toString() }, with: withOld }, token);
-}
 
 export class BehaviorLenses implements vscode.CodeLensProvider, vscode.Disposable {
   private readonly changed = new vscode.EventEmitter<void>();
@@ -51,7 +44,7 @@ export class BehaviorLenses implements vscode.CodeLensProvider, vscode.Disposabl
     const old = await vscode.workspace.openTextDocument(diff.original);
     if (old.languageId !== 'isocnc') return [];
     // What an edit has overtaken is asked again; without a server there are no lenses.
-    const comparison = await compare(this.server, old, document, token).catch(() => null);
+    const comparison = await compare(this.server, old, document, {}, token).catch(() => null);
     if (!comparison) return [];
     return lensesOf(comparison, summaries(), document.lineCount).map(
       ({ line, title }) => new vscode.CodeLens(new vscode.Range(line, 0, line, 0), { title, command: '' }),
