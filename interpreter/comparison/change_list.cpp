@@ -35,6 +35,11 @@ std::optional<ChangedLines> lines_of(const RecordedRun& run, std::size_t begin, 
   return lines;
 }
 
+/// What comes after the last action comes where that is.
+std::size_t start_of(const RecordedRun& run, std::size_t begin) {
+  return run.actions[std::min(begin, run.actions.size() - 1)].line;
+}
+
 bool is_same_feed(const MachineAction& a, const MachineAction& b) {
   if (a.is_rapid != b.is_rapid) return false;
   const auto near = [](double one, double other) {
@@ -110,6 +115,8 @@ BehaviorChange& ChangeList::add(ChangeKind kind, const ActionRanges& at) {
   BehaviorChange change{.kind = kind,
                         .old_lines = lines_of(runs_.a, at.a_begin, at.a_end),
                         .new_lines = lines_of(runs_.b, at.b_begin, at.b_end),
+                        .old_start = start_of(runs_.a, at.a_begin),
+                        .new_start = start_of(runs_.b, at.b_begin),
                         .old_motions = motion_count(runs_.a, at.a_begin, at.a_end),
                         .new_motions = motion_count(runs_.b, at.b_begin, at.b_end)};
   if (at.a_begin < at.a_end) change.old_tool = tool_of(runs_.a, a(at.a_begin));
@@ -283,6 +290,7 @@ void ChangeList::join_moved_blocks() {
       BehaviorChange& change = changes_[i];
       change.kind = ChangeKind::Reordered;
       change.new_lines = changes_[k].new_lines;
+      change.new_start = changes_[k].new_start;
       change.new_motions = changes_[k].new_motions;
       change.new_tool = changes_[k].new_tool;
       is_joined[k] = true;

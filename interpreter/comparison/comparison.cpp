@@ -46,6 +46,7 @@ RecordedRun without_ignored(RecordedRun run, const ComparisonOptions& options) {
 /// The change as it is if both programs are swapped.
 BehaviorChange mirrored(BehaviorChange change) {
   std::swap(change.old_lines, change.new_lines);
+  std::swap(change.old_start, change.new_start);
   std::swap(change.old_value, change.new_value);
   std::swap(change.old_motions, change.new_motions);
   if (change.shift) change.shift = -*change.shift;

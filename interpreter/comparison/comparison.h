@@ -39,6 +39,10 @@ struct BehaviorChange {
   ChangeKind kind = ChangeKind::Moved;
   std::optional<ChangedLines> old_lines;
   std::optional<ChangedLines> new_lines;
+  /// Where each program comes to the change: the line of the first action that has a part in it, or else of the one
+  /// that it does next. From 0.
+  std::size_t old_start = 0;
+  std::size_t new_start = 0;
   std::optional<execution::ToolCode> old_tool;  ///< The mounted one, if the old program has a part in the change.
   std::optional<execution::ToolCode> new_tool;
   /// Moved and Shape: how far a point of one path is at most from the other path, mm, or the length of `shift`; 0 for

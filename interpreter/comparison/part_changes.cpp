@@ -183,6 +183,9 @@ class PartNamer {
     std::optional<ChangedLines>& jumping = jump.is_in_a ? change.old_lines : change.new_lines;
     if (!jumping) jumping = ChangedLines{cause, cause};
     jumping->first = std::min(jumping->first, cause);
+    const auto start_at = [](std::size_t& start, std::size_t line) { start = std::min(start, line); };
+    start_at(jump.is_in_a ? change.old_start : change.new_start, cause);
+    if (jump.not_taken != nullptr) start_at(jump.is_in_a ? change.new_start : change.old_start, jump.not_taken->line);
     const DifferentPart last{{at.a_end, whole.a_end, at.b_end, whole.b_end}, part.before, part.after, part.is_closed};
     if (!is_empty(without_closing(last))) {
       name_inside(last);

@@ -21,6 +21,7 @@ std::uint64_t tries() {
 std::vector<BehaviorChange> swapped(std::vector<BehaviorChange> changes) {
   for (BehaviorChange& change : changes) {
     std::swap(change.old_lines, change.new_lines);
+    std::swap(change.old_start, change.new_start);
     std::swap(change.old_tool, change.new_tool);
     std::swap(change.old_value, change.new_value);
     std::swap(change.old_motions, change.new_motions);

@@ -337,5 +337,22 @@ TEST(Comparison, RecordsTotals) {
   EXPECT_EQ(run.extents[2].minimum, -5);
 }
 
+/// The lines at which the programs come to each change, from 1.
+std::string starts(const std::string& old_program, const std::string& new_program) {
+  std::string text;
+  for (const BehaviorChange& change : changes_between(old_program, new_program))
+    text += fmt::format("{} {}|{}\n", name_of(change.kind), change.old_start + 1, change.new_start + 1);
+  return text;
+}
+
+TEST(Comparison, NamesWhereEachProgramComesToAChange) {
+  EXPECT_EQ(starts(kSquare, square("X100\n", "\nX101\n")), "moved 5|6\n");
+  EXPECT_EQ(starts(kSquare, square("G00 Z40", "M100\nG00 Z40")), "function 9|9\n");
+  EXPECT_EQ(starts("\n" + square("G00 Z40", "M100\nG00 Z40"), kSquare), "function 10|9\n");
+  const std::string jumping = square("X100\n", "IF VGPL = 0 GOTO N7\nX100\nN7\n");
+  EXPECT_EQ(starts(square("X100\n", "IF VGPL = 1 GOTO N7\nX100\nN7\n"), "\n" + jumping), "path 5|6\n");
+  EXPECT_EQ(starts(kHead + "M02\n", kHead), "end 4|3\n") << "the last line without M02";
+}
+
 }  // namespace
 }  // namespace isocnc::comparison
