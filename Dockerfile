@@ -10,6 +10,7 @@ RUN cpack --config build/release/CPackConfig.cmake -G DEB -B build/packages
 
 FROM debian:12-slim
 COPY --from=build /isocnc/build/packages/*.deb /tmp/
-RUN apt-get update && apt-get install -y --no-install-recommends /tmp/*.deb git && rm -rf /tmp/*.deb /var/lib/apt/lists/*
+RUN apt-get update && apt-get install -y --no-install-recommends /tmp/*.deb git curl ca-certificates && rm -rf /tmp/*.deb /var/lib/apt/lists/*
+COPY --from=build /isocnc/scripts/compare-in-pipeline /usr/local/bin/
 WORKDIR /work
 CMD ["isolint"]

@@ -76,6 +76,10 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
                        {"Run each program on the machine as well: joints\noutside their travel, gouges of compensation",
                         "Esegue anche ogni programma sulla macchina: assi\nfuori corsa, intacchi della correzione"});
   verify.without_exclusions();
+  const command_line::MaterialProgramOptions material =
+      command_line::add_material_values(program, options.material_values);
+  material.resolution.needs(verify);
+  material.window.needs(verify);
   const command_line::ProgramOption baseline =
       program.add_option("--baseline", options.baseline, command_line::kFileValue,
                          {"Not the findings recorded in this file", "Non le segnalazioni registrate in questo file"});

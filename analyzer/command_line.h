@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analyzer/selection/selection.h"
+#include "interpreter/command_line/material_values.h"
 #include "interpreter/configuration/configurations.h"
 
 namespace isocnc::analyzer {
@@ -31,7 +32,9 @@ struct LintCommandOptions {
   bool diff = false;          ///< Shows what the fixes would change, and changes nothing.
   bool statistics = false;
   bool verify = false;  ///< Runs each program on the machine as well.
-  bool watch = false;   ///< Checks again what changes, until the user ends it.
+  command_line::MaterialValues material_values;
+  verification::MaterialOptions material;  ///< As read from these values.
+  bool watch = false;                      ///< Checks again what changes, until the user ends it.
   bool list_rules = false;
   bool rules_page = false;
   bool messages_page = false;

@@ -8,6 +8,7 @@
 #include "analyzer/fixing/unified_diff.h"
 #include "analyzer/formatting/program_formatter.h"
 #include "analyzer/input/files.h"
+#include "analyzer/revisions/same_behavior.h"
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/command_line/progress.h"
@@ -45,6 +46,7 @@ struct FormatCommandOptions {
   bool word_order = false;
   bool no_word_order = false;
   bool renumber_all = false;
+  bool verify = false;
   std::string decimals;  // Empty, like the others: by the configuration.
   std::string renumber;
   std::string modal;
@@ -72,6 +74,8 @@ constexpr Text kOneProgram{"standard output takes one program; choose --check, -
 constexpr Text kStandardInputInPlace{"standard input cannot be written in place (-i)",
                                      "lo standard input non si può riscrivere sul posto (-i)"};
 constexpr Text kNotRenumbered{"not renumbered: {}", "non rinumerato: {}"};
+constexpr Text kNotVerified{"not formatted, since it is not certain that it does the same: {}",
+                            "non formattato, perché non è certo che faccia lo stesso: {}"};
 constexpr Text kWouldBeChanged{"{} of {} programs would be changed", "programmi da modificare: {} di {}"};
 constexpr Text kWereChanged{"{} of {} programs changed", "programmi modificati: {} di {}"};
 
@@ -132,6 +136,12 @@ std::vector<std::string> decimals_choices() {
   return choices;
 }
 
+/// What one file is formatted by.
+struct FileSettings {
+  formatting::ProgramStyle style;
+  const configuration::MachineConfiguration& machine;  ///< For the proof.
+};
+
 /// Formats programs one after another.
 class FormatRun {
  public:
@@ -142,11 +152,11 @@ class FormatRun {
         language_(options.reader_language()),
         progress_(shares_terminal() ? nullptr : command_line::terminal_writer(), input::bytes_of(selection.files)) {}
 
-  /// `styles` holds one for each file.
-  ExitStatus run(const std::vector<formatting::ProgramStyle>& styles) {
+  /// `settings` holds those of each file.
+  ExitStatus run(const std::vector<FileSettings>& settings) {
     failed_ = !selection_.problems.empty();
     for (std::size_t i = 0; i < selection_.files.size(); ++i) {
-      format_file(selection_.files[i], styles[i]);
+      format_file(selection_.files[i], settings[i]);
       if (output_.error() != 0) break;
     }
     progress_.clear();
@@ -173,7 +183,21 @@ class FormatRun {
     failed_ = true;
   }
 
-  void format_file(const std::filesystem::path& file, const formatting::ProgramStyle& style) {
+  /// Why it is not certain that the formatted program does the same; none if it does.
+  std::optional<std::string> doubt(std::string_view program, const FileSettings& settings) const {
+    std::string formatted;
+    formatting::ProgramFormatter formatter(program, settings.style);
+    while (const auto piece = formatter.next()) formatted += piece->after;
+    const selection::Selection selection;
+    const auto revision = [&](std::string_view text) {
+      return revisions::Revision{text, settings.machine.timed, settings.machine.setup, selection};
+    };
+    const revisions::Revision before = revision(program);
+    const revisions::Revision after = revision(formatted);
+    return revisions::why_not_same({before, after}, {}, language_);
+  }
+
+  void format_file(const std::filesystem::path& file, const FileSettings& settings) {
     const bool from_stdin = file == "-";
     const std::string name = from_stdin ? options_.stdin_name : file.generic_string();
     std::optional<system::FileReplacement> replacement;
@@ -183,9 +207,12 @@ class FormatRun {
     if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);
     const auto& source = std::get<SourceFile>(opened);
     ++read_;
-    formatting::ProgramFormatter formatter(source.text(), style);
+    formatting::ProgramFormatter formatter(source.text(), settings.style);
     if (const auto& obstacle = formatter.obstacle())
       return fail(name, dialect::format(kNotRenumbered, language_, obstacle->message(language_)));
+    if (options_.verify)
+      if (const auto why = doubt(source.text(), settings))
+        return fail(name, dialect::format(kNotVerified, language_, *why));
     shown_bytes_ = 0;
     switch (mode_) {
       case OutputMode::Check:
@@ -272,10 +299,12 @@ ExitStatus format(FormatCommandOptions options) {
   const Language language = options.reader_language();
   if (!check_options(options)) return ExitStatus::Failure;
   const input::FileSelection selection = input::select_programs(options.paths, configurations, language);
-  std::vector<formatting::ProgramStyle> styles;
-  for (const std::filesystem::path& file : selection.files)
-    styles.push_back(style_from(
-        configurations.in_folder(input::place_of_program(file, options.stdin_name).parent_path()).format, options));
+  std::vector<FileSettings> settings;
+  for (const std::filesystem::path& file : selection.files) {
+    const configuration::Configuration& configuration =
+        configurations.in_folder(input::place_of_program(file, options.stdin_name).parent_path());
+    settings.push_back({style_from(configuration.format, options), configuration.machine});
+  }
   const std::vector<std::string> mistakes = configurations.mistakes(language);
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
   if (!mistakes.empty()) return ExitStatus::Failure;
@@ -289,7 +318,7 @@ ExitStatus format(FormatCommandOptions options) {
     complain(kStandardInputInPlace.in(language));
     return ExitStatus::Failure;
   }
-  return FormatRun(options, selection).run(styles);
+  return FormatRun(options, selection).run(settings);
 }
 
 void add_options(command_line::ProgramApp& program, FormatCommandOptions& options) {
@@ -340,6 +369,9 @@ void add_options(command_line::ProgramApp& program, FormatCommandOptions& option
                    {"With --renumber: on every line with a block", "Con --renumber: su ogni linea con un blocco"});
 
   program.begin_group({"How it is run", "Esecuzione"});
+  program.add_flag("--verify", options.verify,
+                   {"Run both texts, and format only what does the same",
+                    "Esegue i due testi, e formatta solo ciò che fa lo\nstesso"});
   program.add_option("--stdin-filename", options.stdin_name, {"NAME", "NOME"},
                      {"What to call standard input", "Come chiamare lo standard input"});
   program.add_language(options.language,

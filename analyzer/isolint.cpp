@@ -148,6 +148,11 @@ ExitStatus check(LintCommandOptions options) {
   const std::vector<std::string> problems = selection::Selection().follow(options.selection, style.language);
   for (const std::string& problem : problems) complain(problem);
   if (!problems.empty()) return ExitStatus::Failure;
+  if (const auto mistake =
+          command_line::set_material_values(options.material_values, style.language, options.material)) {
+    complain(*mistake);
+    return ExitStatus::Failure;
+  }
   if (options.watch) return watch(options, style);
   std::unique_ptr<formats::Renderer> renderer = options.statistics
                                                     ? formats::make_statistics_renderer(options.format, style)

@@ -145,7 +145,8 @@ void LintRun::verify(CheckedFile& checked, check::Report found, const selection:
   const auto scene = options_.source.none ? nullptr : scenes_.of(settings.configuration, checked.name);
   const int jobs = jobs_for(text);
   const auto together = [jobs](const std::function<void()>& work) { check::side_by_side(jobs, work); };
-  const verification::VerifiedRun run = selection::verified(text, settings, scene.get(), {.together = together});
+  const verification::VerifiedRun run =
+      selection::verified(text, settings, scene.get(), {.together = together, .material = options_.material});
   if (run.certificate) checked.certificate = verification::in_words(*run.certificate, style_.language);
   checked.report = selection::shown_report_with_run(std::move(found), run.outcome, text, settings.selection, filter);
 }

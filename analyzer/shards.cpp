@@ -9,10 +9,10 @@
 #include "analyzer/formats/merged_reports.h"
 #include "analyzer/lint_counts.h"
 #include "analyzer/lint_output.h"
-#include "analyzer/selection/fingerprint.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/source_file.h"
+#include "interpreter/text/hash.h"
 
 namespace isocnc::analyzer {
 
@@ -36,7 +36,7 @@ bool Shard::holds(const std::filesystem::path& file) const {
   const std::filesystem::path absolute = std::filesystem::absolute(file).lexically_normal();
   const std::filesystem::path relative = absolute.lexically_relative(std::filesystem::current_path());
   const std::filesystem::path& named = relative.empty() ? absolute : relative;
-  return selection::hash_on(selection::kHashStart, named.generic_string()) % count == index;
+  return text::hash_on(text::kHashStart, named.generic_string()) % count == index;
 }
 
 static ExitStatus refuse(std::string_view why) {

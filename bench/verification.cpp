@@ -68,7 +68,7 @@ void run_alone(benchmark::State& state, const Case& of) {
                                                [&](const simulation::TimedEvent& timed) {
                                                  if (!timed.move) return;
                                                  kinematics::MadeMove made(of.machine.motion, *timed.move);
-                                                 findings.take(timed.event.line, made);
+                                                 findings.take(timed.event, made);
                                                },
                                            .stretch = {}});
     simulation::Compensation compensation(of.machine);

@@ -7,8 +7,8 @@ include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
                                                 WORLD_READ WORLD_EXECUTE)
 set(programs ${ISOCNC_PROGRAMS})
-set(libraries fmt dialect text syntax geometry solids chords stock kinematics motion execution system running simulation removal verification configuration restart comparison plot
-              command_line rules style fixes check selection fixing formats formatting input analyzer)
+set(libraries fmt dialect text syntax geometry solids chords stock kinematics motion execution system git running simulation removal verification configuration restart comparison plot
+              command_line rules style fixes check selection fixing formats revisions formatting input analyzer)
 set(packaged ${CMAKE_BINARY_DIR}/packaged)
 
 # Compresses as Debian requires: the same bytes each time.
@@ -74,6 +74,8 @@ install(DIRECTORY cmake/windows/notepad++ DESTINATION ${CMAKE_INSTALL_DOCDIR} CO
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png" PATTERN man EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+# The post-processors of CAM systems, and the kit that proves any.
+install(DIRECTORY posts DESTINATION ${CMAKE_INSTALL_DATADIR}/isocnc COMPONENT programs PATTERN __pycache__ EXCLUDE)
 
 if(ISOCNC_DEVELOPMENT)
   set(unless_asked)

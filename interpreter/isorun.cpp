@@ -9,6 +9,7 @@
 #include "analyzer/selection/program_settings.h"
 #include "analyzer/selection/run_report.h"
 #include "analyzer/selection/verified.h"
+#include "interpreter/command_line/material_values.h"
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/command_line/progress.h"
@@ -30,7 +31,6 @@
 #include "interpreter/system/source_file.h"
 #include "interpreter/system/terminal.h"
 #include "interpreter/system/user_language.h"
-#include "interpreter/text/lists.h"
 #include "interpreter/text/unicode.h"
 #include "interpreter/verification/verification_report.h"
 
@@ -53,8 +53,7 @@ struct RunCommandOptions {
   std::string sample_seconds = "0.01";
   std::string plot;
   std::string stock_out;
-  std::optional<std::string> resolution;
-  std::optional<std::string> window;
+  command_line::MaterialValues material;
   bool json = false;
   bool verify = false;
   std::string language;
@@ -101,10 +100,6 @@ constexpr Text kNoPage{
     "funziona"};
 constexpr Text kWrongStock{"--stock-out writes a file whose name ends in .stl or .stock, unlike {}",
                            "--stock-out scrive un file il cui nome finisce in .stl o .stock, non come {}"};
-constexpr Text kWrongResolution{"--resolution takes a plain number of mm above 0, such as 0.5, not {}",
-                                "--resolution vuole un numero semplice in mm maggiore di 0, come 0.5, non {}"};
-constexpr Text kWrongWindow{"--window takes two corners in mm, the lower one first, such as 0,0,250,250, not {}",
-                            "--window vuole due spigoli in mm, prima quello inferiore, come 0,0,250,250, non {}"};
 constexpr Text kEmptyWindow{"in the window {} there is nothing of the stock, which reaches from X{} Y{} to X{} Y{}",
                             "nella finestra {} non c'è nulla del grezzo, che va da X{} Y{} a X{} Y{}"};
 constexpr Text kPartOfAStock{
@@ -142,18 +137,6 @@ std::optional<running::RunOptions> read_run_options(const RunCommandOptions& opt
   return run;
 }
 
-/// The rectangle in `X0,Y0,X1,Y1`.
-std::optional<stock::Window> read_window(std::string_view text) {
-  std::vector<double> numbers;
-  for (const std::string_view side : text::split_at_commas(text)) {
-    const std::optional<double> number = read_decimal(side);
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
-  }
-  if (numbers.size() != 4 || !(numbers[0] < numbers[2]) || !(numbers[1] < numbers[3])) return std::nullopt;
-  return stock::Window(geometry::Vec2(numbers[0], numbers[1]), geometry::Vec2(numbers[2], numbers[3]));
-}
-
 /// The outputs and their destinations; none after an error message.
 std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   constexpr double kShortest = 1e-4;
@@ -172,15 +155,12 @@ std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   if (format == plot::PlotFormat::Html && plot::kPageTemplate.empty()) return refuse(kNoPage, options.plot, options);
   if (!options.stock_out.empty() && !options.stock_out.ends_with(".stl") && !options.stock_out.ends_with(".stock"))
     return refuse(kWrongStock, options.stock_out, options);
-  if (options.resolution) {
-    outputs.material.resolution = read_decimal(*options.resolution);
-    if (!(outputs.material.resolution.value_or(0) > 0)) return refuse(kWrongResolution, *options.resolution, options);
+  if (const auto mistake = set_material_values(options.material, options.reader_language(), outputs.material)) {
+    complain(*mistake);
+    return std::nullopt;
   }
-  if (options.window) {
-    outputs.material.window = read_window(*options.window);
-    if (!outputs.material.window) return refuse(kWrongWindow, *options.window, options);
-    if (options.stock_out.ends_with(".stock")) return refuse(kPartOfAStock, options.stock_out, options);
-  }
+  if (options.material.window && options.stock_out.ends_with(".stock"))
+    return refuse(kPartOfAStock, options.stock_out, options);
   // Cutting takes longer than the rest, and nothing else shows it.
   outputs.material.is_cut = options.verify || !options.stock_out.empty() || format == plot::PlotFormat::Html;
   if (options.trace == "-" && options.samples == "-") return refuse(kOneStandardOutput, "", options);
@@ -438,21 +418,23 @@ plot::PlotSubject plot_subject(std::string_view program, const configuration::Ma
 
 /// Whether there is a stock for the options that take one, which fits the memory; false after an error message.
 bool can_cut(const RunCommandOptions& options, const RunOutputs& outputs) {
-  if (options.stock_out.empty() && !options.resolution && !options.window) return true;
+  if (options.stock_out.empty() && !options.material.resolution && !options.material.window) return true;
   std::optional<removal::Workpiece> workpiece;
   verification::MaterialOptions material = outputs.material;
   material.is_cut = true;
   if (outputs.subject.scene) workpiece = verification::workpiece_of(*outputs.subject.scene, {}, material);
   const Language language = options.reader_language();
   if (!workpiece) {
-    const std::string_view option = options.resolution ? "--resolution" : options.window ? "--window" : "--stock-out";
+    const std::string_view option = options.material.resolution ? "--resolution"
+                                    : options.material.window   ? "--window"
+                                                                : "--stock-out";
     complain(dialect::format(kNoStock, language, option, options.shown_file()));
     return false;
   }
-  if (options.window && stock::bounds_of(workpiece->blank, workpiece->window).isEmpty()) {
+  if (options.material.window && stock::bounds_of(workpiece->blank, workpiece->window).isEmpty()) {
     const solids::BoundingBox blank = stock::bounds_of(workpiece->blank);
-    complain(dialect::format(kEmptyWindow, language, *options.window, blank.min().x(), blank.min().y(), blank.max().x(),
-                             blank.max().y()));
+    complain(dialect::format(kEmptyWindow, language, *options.material.window, blank.min().x(), blank.min().y(),
+                             blank.max().x(), blank.max().y()));
     return false;
   }
   const std::optional<double> fitting = verification::coarser_spacing(*workpiece);
@@ -555,12 +537,7 @@ ExitStatus run_main(int argc, char** argv) {
   const command_line::ProgramOption stock_out = program.add_option(
       "--stock-out", options.stock_out, command_line::kFileValue,
       {"What is left of the blank, as FILE.stl or .stock", "Ciò che resta del grezzo, come FILE.stl o .stock"});
-  program.add_option("--resolution", options.resolution, {"MM", "MM"},
-                     {"How fine the blank is cut; else as the setup says",
-                      "Quanto è fine il taglio del grezzo; altrimenti\ncome dice l'attrezzaggio"});
-  program.add_option("--window", options.window, {"X0,Y0,X1,Y1", "X0,Y0,X1,Y1"},
-                     {"Cut this part of the blank alone (setup's frame)",
-                      "Taglia solo questa parte del grezzo, nel\nriferimento dell'attrezzaggio"});
+  command_line::add_material_values(program, options.material);
   command_line::add_run_values(program, options.values);
   program.add_option(
       "--machine", options.machine, command_line::kFileValue,

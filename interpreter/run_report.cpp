@@ -71,7 +71,7 @@ void RunReport::take(const simulation::TimedEvent& timed) {
   std::optional<kinematics::MadeMove> made;
   if (timed.move) made.emplace(machine_.motion, *timed.move);
   summary_.add(timed, made ? &*made : nullptr);
-  if (made) findings_.take(timed.event.line, *made);
+  if (made) findings_.take(timed.event, *made);
   if (verifier_) verifier_->take(timed);
   if (plot_) plot_->add(timed);
   if (trace_ != nullptr) trace_->write(to_json(timed, machine_) + '\n');

@@ -76,10 +76,12 @@ void OpenDocument::close() {
   ++signals_->edits_waiting;
 }
 
-void OpenDocument::ask(features::Method method, rpc::Json params, protocol::ClientPointer client,
+void OpenDocument::ask(features::Method method, rpc::CallPointer call, rpc::Json params, protocol::ClientPointer client,
                        WorkerRequest request) {
-  worker_.post([method, params = std::move(params), client = std::move(client), request = std::move(request)](
-                   DocumentWorker& worker) { worker.answer(method, params, *client, request); });
+  worker_.post([method, call = std::move(call), params = std::move(params), client = std::move(client),
+                request = std::move(request)](DocumentWorker& worker) {
+    worker.answer(method, call->message.with_texts(params), *client, request);
+  });
 }
 
 }  // namespace isocnc::lsp

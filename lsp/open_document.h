@@ -45,7 +45,8 @@ class OpenDocument {
   void close();
   /// The client's settings or the configuration files have changed.
   void reconfigure(protocol::ClientPointer client);
-  void ask(features::Method method, rpc::Json params, protocol::ClientPointer client,
+  /// `params` are those of the call, or a part of them.
+  void ask(features::Method method, rpc::CallPointer call, rpc::Json params, protocol::ClientPointer client,
            background::WorkerRequest request);
   /// Ends a verification that is under way.
   void stop_verification();

@@ -299,7 +299,8 @@ void Server::ask(const features::Method& method, const rpc::CallPointer& call, J
     return outbox_.refuse(*call, code, "this document is not open");
   }
   if (const auto request = pending_requests_.add(*call))
-    document->ask(method, std::move(params), client_, {request->cancel_flag(), taker_of(*request), failer(*request)});
+    document->ask(method, call, std::move(params), client_,
+                  {request->cancel_flag(), taker_of(*request), failer(*request)});
 }
 
 ClosedPrograms::Folders Server::folders_of_workspace() const {
@@ -347,7 +348,7 @@ void Server::ask_workspace(const features::WorkspaceRequest& workspace_request, 
                                           .cancelled = request->cancel_flag()};
   for (OpenDocument* const document : open) {
     query.open.insert(document->uri());
-    document->ask(method, call->params(), client_, {request->cancel_flag(), take_one, take_none});
+    document->ask(method, call, call->params(), client_, {request->cancel_flag(), take_one, take_none});
   }
   closed_programs_.post([query = std::move(query), take](ClosedPrograms& programs) {
     if (auto results = programs.answers(query)) take(std::move(*results));

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "interpreter/text/hash.h"
+
 namespace isocnc::check {
 
 /// The maximum number of valuations kept apart in one group.
@@ -57,7 +59,7 @@ void Groups::join(Groups&& groups) {
 
 /// A hash that is equal for equal states and differs for most others.
 static std::uint64_t hash_of(const execution::State& state) {
-  std::uint64_t hash = 14695981039346656037ULL;
+  std::uint64_t hash = text::kHashStart;
   const auto mix = [&](std::uint64_t bits) { hash = std::rotl((hash ^ bits) * 0x9E3779B97F4A7C15ULL, 29); };
   const auto mix_number = [&](double number) { mix(std::bit_cast<std::uint64_t>(number + 0.0)); };  // -0 equals 0.
   for (int i = 0; i < 3; ++i) mix_number(state.position.tip[i]);

@@ -4,6 +4,7 @@
 #include "analyzer/formats/renderers.h"
 #include "analyzer/selection/fingerprint.h"
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/text/hash.h"
 
 namespace isocnc::formats {
 
@@ -30,7 +31,7 @@ class GitlabRenderer final : public Renderer {
       const OrderedJson issue = {
           {"description", fmt::format("{}: {}", shown.def.code, shown.message)},
           {"check_name", shown.def.code},
-          {"fingerprint", fmt::format("{:016x}", selection::hash_on(selection::kHashStart, all))},
+          {"fingerprint", fmt::format("{:016x}", text::hash_on(text::kHashStart, all))},
           {"severity", kSeverities[static_cast<std::size_t>(shown.severity)]},
           {"location", {{"path", path}, {"lines", {{"begin", shown.line}, {"end", shown.line}}}}}};
       output.buffer() += first_ ? "\n  " : ",\n  ";

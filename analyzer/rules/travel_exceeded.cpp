@@ -25,10 +25,13 @@ static void check_travel_exceeded(const ExecutedBlock& block, const execution::P
     // In a face frame, other coordinates may move the machine's axis.
     const syntax::Word* const word =
         block.after.face_mounted && axis < 3 ? nullptr : block.argument(dialect::kAxisLetters[axis]);
+    const bool is_in_inches = axis < 3 && block.after.in_inches();
+    const double unit = dialect::mm_per_unit(is_in_inches);
     sink.report({.id = "travel-exceeded"_diag,
+                 .is_in_inches = is_in_inches,
                  .span = word ? word->span() : block.motion_word().span(),
-                 .values = {static_cast<double>(axis), below ? reached.minimum : reached.maximum,
-                            below ? travel.minimum : travel.maximum}});
+                 .values = {static_cast<double>(axis), (below ? reached.minimum : reached.maximum) / unit,
+                            (below ? travel.minimum : travel.maximum) / unit}});
   }
 }
 

@@ -6,12 +6,9 @@
 #include <utility>
 
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/text/hash.h"
 
 namespace isocnc::selection {
-
-/// 64-bit FNV-1a, continued from `hash`: the same on every machine, so that hashes can be kept in files.
-inline constexpr std::uint64_t kHashStart = 0xcbf29ce484222325ULL;
-std::uint64_t hash_on(std::uint64_t hash, std::string_view text);
 
 /// Identifies a finding after the program around it has been edited: its code, its line's text without blanks, and the
 /// number of equal findings above it in the file. The line number does not matter.
@@ -28,7 +25,7 @@ class Fingerprints {
 
  private:
   std::string_view line_;  // The line of the last call; consecutive findings often share it.
-  std::uint64_t line_hash_ = kHashStart;
+  std::uint64_t line_hash_ = text::kHashStart;
   std::map<std::pair<std::uint64_t, dialect::DiagnosticId>, std::uint64_t> seen_;
 };
 

@@ -14,8 +14,8 @@ using verification::VerifiedRun;
 VerifiedRun verified(std::string_view text, const ProgramSettings& settings, const verification::Scene* scene,
                      const VerifyOptions& options) {
   const configuration::MachineConfiguration& machine = settings.configuration.machine;
-  return verified_on_paths(text, {.setup = machine.setup, .stop = options.stop}, machine.timed, scene,
-                           options.together);
+  return verified_on_paths(text, {.setup = machine.setup, .stop = options.stop}, machine.timed, scene, options.together,
+                           options.material);
 }
 
 /// Adds what no run has shown because of a jump.
@@ -34,8 +34,9 @@ static void add_gaps(VerifiedRun& run, const VgplValues& values) {
 
 VerifiedRun verified_on_paths(std::string_view text, const running::RunOptions& options,
                               const simulation::TimedMachine& machine, const verification::Scene* scene,
-                              const verification::WorkTogether& together) {
-  VerifiedRun first = verification::verified_run(text, options, machine, scene, together);
+                              const verification::WorkTogether& together,
+                              const verification::MaterialOptions& material) {
+  VerifiedRun first = verification::verified_run(text, options, machine, scene, together, material);
   if (first.outcome.runs.front().decisions.empty()) return first;  // Most programs have no jump.
   VgplValues values(text);
   values.take(first.outcome.runs.front());
@@ -47,7 +48,7 @@ VerifiedRun verified_on_paths(std::string_view text, const running::RunOptions& 
       if (options.stop && options.stop()) break;
       running::RunOptions other = options;
       other.vgpl = *vgpl;
-      VerifiedRun run = verification::verified_run(text, other, machine, scene, together);
+      VerifiedRun run = verification::verified_run(text, other, machine, scene, together, material);
       values.take(run.outcome.runs.front());
       joined.add(std::move(run.outcome));
       vgpl = values.next();

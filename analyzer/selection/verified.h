@@ -14,6 +14,7 @@ struct VerifyOptions {
   verification::WorkTogether together = {};  ///< Without it, on the caller's thread alone.
   /// Asked at intervals: where it returns true, the run ends there, and the result is that of the blocks before.
   std::function<bool()> stop = {};
+  verification::MaterialOptions material = {};
 };
 
 /// The number of paths on which a program is verified at most.
@@ -30,7 +31,8 @@ verification::VerifiedRun verified(std::string_view text, const ProgramSettings&
 /// a finding says so (W162). Contacts and certificate are those of the first run.
 verification::VerifiedRun verified_on_paths(std::string_view text, const running::RunOptions& options,
                                             const simulation::TimedMachine& machine, const verification::Scene* scene,
-                                            const verification::WorkTogether& together = {});
+                                            const verification::WorkTogether& together = {},
+                                            const verification::MaterialOptions& material = {});
 
 /// Adds to a single run of a program, and to its certificate, that other values of VGPL and of registers lead
 /// elsewhere.

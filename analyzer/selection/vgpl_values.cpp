@@ -56,7 +56,9 @@ static std::optional<double> value_between(double low, double high) {
   return std::nullopt;
 }
 
-VgplValues::VgplValues(std::string_view text) {
+VgplValues::VgplValues(std::string_view text) : VgplValues(text, {}) {}
+
+VgplValues::VgplValues(std::string_view text, const std::vector<double>& more_constants) : constants_(more_constants) {
   check::each_event_in(text, [&](const check::FlowEvent& event) {
     if (event.kind == check::FlowEvent::Kind::Label) return;
     const bool is_jump = event.kind == check::FlowEvent::Kind::Jump;
@@ -89,10 +91,10 @@ std::size_t VgplValues::cell_of(double constant) const {
   return 2 * static_cast<std::size_t>(place - constants_.begin()) + 1;
 }
 
-void VgplValues::take(const simulation::TakenPath& run) {
-  std::vector<MetJump> met;
-  met.reserve(run.decisions.size());
-  std::uint32_t assigned = 0;
+VgplValues::MetJumps VgplValues::met_by(const simulation::TakenPath& run) const {
+  MetJumps met;
+  met.jumps.reserve(run.decisions.size());
+  check::RegisterSet assigned = 0;
   auto decision = run.decisions.begin();
   for (std::size_t i = 0; i < steps_.size() && decision != run.decisions.end(); ++i) {
     const FlowStep& step = steps_[i];
@@ -101,17 +103,35 @@ void VgplValues::take(const simulation::TakenPath& run) {
       continue;
     }
     if (step.line != decision->line) continue;
-    met.push_back({.step = i, .taken = (decision++)->taken});
+    met.jumps.push_back({.step = i, .taken = (decision++)->taken});
     const bool is_on_register = step.jump.condition_is_known() && step.jump.variable > 0;
-    if (is_on_register && (assigned & check::register_bit(step.jump.variable)) == 0)
-      register_jump_ = std::min(i, register_jump_.value_or(i));
+    if (is_on_register && (assigned & check::register_bit(step.jump.variable)) == 0) met.on_registers.push_back(i);
   }
-  close(met);
-  runs_.push_back(std::move(met));
+  return met;
 }
 
-/// Closes the cells whose values decide all these jumps alike.
-void VgplValues::close(const std::vector<MetJump>& met) {
+void VgplValues::take(const simulation::TakenPath& run) {
+  MetJumps met = met_by(run);
+  if (!met.on_registers.empty())
+    register_jump_ = std::min(met.on_registers.front(), register_jump_.value_or(met.on_registers.front()));
+  close(cells_along(met.jumps));
+  runs_.push_back(std::move(met.jumps));
+}
+
+std::vector<int> VgplValues::unassigned_registers(const simulation::TakenPath& run) const {
+  std::vector<int> registers;
+  for (const std::size_t step : met_by(run).on_registers) registers.push_back(steps_[step].jump.variable);
+  std::sort(registers.begin(), registers.end());
+  registers.erase(std::unique(registers.begin(), registers.end()), registers.end());
+  return registers;
+}
+
+VgplValues::CellSet VgplValues::cells_along(const simulation::TakenPath& run) const {
+  return cells_along(met_by(run).jumps);
+}
+
+/// The cells whose values decide all these jumps alike.
+VgplValues::CellSet VgplValues::cells_along(const std::vector<MetJump>& met) const {
   std::size_t first = 0;
   std::size_t last = cells_.size() - 1;
   std::vector<std::size_t> excluded;
@@ -127,8 +147,19 @@ void VgplValues::close(const std::vector<MetJump>& met) {
     if (comparison == Comparison::Less) last = std::min(last, cell - 1);
   }
   std::sort(excluded.begin(), excluded.end());
-  for (std::size_t i = first; i <= last; ++i)
-    if (!std::binary_search(excluded.begin(), excluded.end(), i)) cells_[i].is_open = false;
+  CellSet along(cells_.size());
+  for (std::size_t i = first; i <= last; ++i) along[i] = !std::binary_search(excluded.begin(), excluded.end(), i);
+  return along;
+}
+
+VgplValues::CellSet VgplValues::open_cells() const {
+  CellSet open(cells_.size());
+  for (std::size_t i = 0; i < cells_.size(); ++i) open[i] = cells_[i].is_open;
+  return open;
+}
+
+void VgplValues::close(const CellSet& cells) {
+  for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].is_open = cells_[i].is_open && !cells[i];
 }
 
 std::optional<double> VgplValues::next() const {

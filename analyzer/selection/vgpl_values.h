@@ -18,6 +18,21 @@ class VgplValues {
  public:
   /// Reads the jumps of a program.
   explicit VgplValues(std::string_view text);
+  /// The same with more constants, so that the values of several programs are cut into the same cells.
+  VgplValues(std::string_view text, const std::vector<double>& more_constants);
+
+  /// Those that the IFs compare VGPL with, ascending.
+  const std::vector<double>& constants() const { return constants_; }
+  /// A set of cells of values: below the first constant, the constant, above it, and so on.
+  using CellSet = std::vector<bool>;
+  /// The cells whose values lead along the path of a run.
+  CellSet cells_along(const simulation::TakenPath& run) const;
+  /// The cells that are open.
+  CellSet open_cells() const;
+  void close(const CellSet& cells);
+
+  /// The registers that IFs of a run compare though it has not assigned them.
+  std::vector<int> unassigned_registers(const simulation::TakenPath& run) const;
 
   /// Takes out a run with the value that next() has given, or with any.
   void take(const simulation::TakenPath& run);
@@ -42,6 +57,11 @@ class VgplValues {
     std::size_t step = 0;  ///< An index into steps_.
     bool taken = false;
   };
+  /// The jumps that a run has met.
+  struct MetJumps {
+    std::vector<MetJump> jumps;
+    std::vector<std::size_t> on_registers;  ///< Those on registers that it has not assigned: indices into steps_.
+  };
 
   /// A range of values without a constant inside, or a constant.
   struct ValueCell {
@@ -51,7 +71,8 @@ class VgplValues {
 
   void cut_into_cells();
   std::size_t cell_of(double constant) const;
-  void close(const std::vector<MetJump>& met);
+  MetJumps met_by(const simulation::TakenPath& run) const;
+  CellSet cells_along(const std::vector<MetJump>& met) const;
   std::optional<std::size_t> open_jump() const;
 
   std::vector<FlowStep> steps_;

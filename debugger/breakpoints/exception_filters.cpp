@@ -8,6 +8,7 @@
 #include "debugger/expressions/expression.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/kinematics/travel.h"
+#include "interpreter/simulation/run_findings.h"
 #include "interpreter/verification/verification_report.h"
 
 namespace isocnc::breakpoints {
@@ -29,8 +30,8 @@ bool ExceptionFilters::judge_motions(const simulation::TimedMachine& machine) co
 
 namespace {
 
-constexpr Text kBeyondTravel{"axis {} would go to {}, beyond its travel, which ends at {}",
-                             "l'asse {} andrebbe a {}, oltre la corsa, che finisce a {}"};
+constexpr Text kBeyondTravel{"axis {} would go to {}, beyond its travel, which ends at {}{}",
+                             "l'asse {} andrebbe a {}, oltre la corsa, che finisce a {}{}"};
 constexpr Text kAnyToolChange{"tool change", "cambio utensile"};
 constexpr Text kFirstCut{"first feed move of this tool", "primo movimento in lavoro di questo utensile"};
 
@@ -43,13 +44,15 @@ Exception exception_of(ExceptionFilter filter, std::string message) {
 }  // namespace
 
 std::optional<Exception> find_overtravel(const kinematics::Move& move, const simulation::TimedMachine& machine,
-                                         Language language) {
+                                         bool is_in_inches, Language language) {
   const auto found = kinematics::overtravels(machine.motion, move);
   if (found.empty()) return std::nullopt;
   const kinematics::Overtravel& first = found.front();
+  const syntax::Finding told = simulation::travel_finding(first, is_in_inches);
   return exception_of(ExceptionFilter::Limits,
                       dialect::format(kBeyondTravel, language, dialect::kAxisLetters[first.axis],
-                                      expressions::show_value(first.position), expressions::show_value(first.limit)));
+                                      expressions::show_value(told.values[1]), expressions::show_value(told.values[2]),
+                                      dialect::inches_note(told.is_in_inches, language)));
 }
 
 bool ExceptionFilters::counts(ExceptionFilter filter, const expressions::Moment& before) const {

@@ -77,8 +77,8 @@ class ExceptionFilters {
   std::array<std::optional<expressions::Expression>, kExceptionFilterCount> conditions_;
 };
 
-/// What the axis limits say about a motion as the machine makes it.
+/// What the axis limits say about a motion as the machine makes it, in inches if its block is under G70.
 std::optional<Exception> find_overtravel(const kinematics::Move& move, const simulation::TimedMachine& machine,
-                                         dialect::Language language);
+                                         bool is_in_inches, dialect::Language language);
 
 }  // namespace isocnc::breakpoints

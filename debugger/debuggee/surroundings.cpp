@@ -109,6 +109,7 @@ class BlockPass {
 
   Surroundings::PassedBlock finish(const Simulation& after) {
     frame_ = after.run().state.frame_in_force();
+    is_in_inches_ = after.run().state.in_inches();
     examine();
     for (std::size_t i = 0; changes_tool_ && i < wanted_.limits.size(); ++i)
       if (!was_beyond_[i] && wanted_.limits[i].is_beyond(surroundings_.neighbors_of(after)))
@@ -154,7 +155,7 @@ class BlockPass {
           contacts_on({&*stretch_before_, 1}, bodies),
           [&](std::size_t) -> StretchPlace { return {.number = 0, .line = kBefore, .frame = frame_}; }, bodies, tool_);
     const auto place_of = [&](std::size_t stretch) -> StretchPlace {
-      return {.number = stretch + 1, .line = lines_[stretch], .frame = frame_};
+      return {.number = stretch + 1, .line = lines_[stretch], .frame = frame_, .is_in_inches = is_in_inches_};
     };
     log.take(found, place_of, bodies, tool_);
     log.close_all();
@@ -172,6 +173,7 @@ class BlockPass {
   std::vector<Stretch> stretches_;
   std::vector<std::size_t> lines_;  ///< Of the stretches.
   geometry::Frame frame_;
+  bool is_in_inches_ = false;
   Surroundings::PassedBlock passed_;
 };
 

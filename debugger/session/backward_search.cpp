@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "debugger/debuggee/block_effect.h"
+#include "interpreter/kinematics/travel.h"
 
 namespace isocnc::session {
 
@@ -49,7 +50,7 @@ std::optional<std::uint64_t> BackwardSearch::find_overtravel_from(std::uint64_t 
   return debuggee.find_simulated_back(block, searched_from_, [&](simulation::Simulation& simulation) {
     bool is_beyond = false;
     simulation.trace_block([&](const kinematics::Move& move) {
-      is_beyond = is_beyond || breakpoints::find_overtravel(move, debuggee.machine(), state_.language()).has_value();
+      is_beyond = is_beyond || !kinematics::overtravels(debuggee.machine().motion, move).empty();
     });
     return is_beyond;
   });

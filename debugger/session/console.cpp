@@ -1,5 +1,6 @@
 #include "debugger/session/console.h"
 
+#include <filesystem>
 #include <utility>
 
 #include "interpreter/syntax/tree_store.h"
@@ -14,6 +15,7 @@ using syntax::InstructionKind;
 static constexpr std::size_t kMaxLength = 65536;
 
 static constexpr Text kWaits{"waits for G909", "in attesa di G909"};
+static constexpr Text kComparing{"comparing with {}", "confronto con {}"};
 static constexpr Text kTooLong{"this is too long to be run by hand", "troppo lungo per essere eseguito a mano"};
 
 /// Throws RequestError where the text is not an expression.
@@ -83,7 +85,19 @@ bool is_expression(const Session& session, std::string_view text) {
 
 }  // namespace
 
+/// The file that the console's one command, `difference FILE`, names; empty for any other text.
+static std::string_view file_of_command(std::string_view text) {
+  constexpr std::string_view kCommand = "difference";
+  if (!text.starts_with(kCommand)) return {};
+  const std::string_view rest = text::trimmed(text.substr(kCommand.size()));
+  return rest.empty() || !text::is_blank(text[kCommand.size()]) ? std::string_view() : rest;
+}
+
 std::string enter(Session& session, std::string_view text) {
+  if (const std::string_view file = file_of_command(text); !file.empty()) {
+    session.run_to_difference(std::filesystem::path(file));
+    return session.in_language(kComparing, file);
+  }
   if (text.starts_with('=')) return evaluate(session, text.substr(1), session.launch_options().format);
   const Blocks blocks = read_blocks(text);
   const bool is_block = blocks.are_any && (blocks.are_sound || (blocks.look_like_it && !is_expression(session, text)));

@@ -49,4 +49,21 @@ Launch launch(const LaunchOptions& options, std::optional<Language> commanded, L
           std::move(configuration)};
 }
 
+difference::ReferenceProgram read_reference(const std::filesystem::path& file, const SessionState& state) {
+  LaunchOptions options = state.launch_options;
+  options.program = std::filesystem::absolute(options.program.parent_path() / file).lexically_normal();
+  const Launch read = launch(options, state.commanded_language, state.language());
+  return {.name = options.program.filename().generic_string(),
+          .text = std::string(read.debuggee.text().text()),
+          .options = run_options(options, read.configuration),
+          .machine = read.configuration.machine.timed};
+}
+
+difference::ReferenceProgram reference_text(std::string name, std::string text, const SessionState& state) {
+  return {.name = std::move(name),
+          .text = std::move(text),
+          .options = run_options(state.launch_options, state.configuration),
+          .machine = state.configuration.machine.timed};
+}
+
 }  // namespace isocnc::session

@@ -31,6 +31,8 @@ void Notifier::report_stop(std::string_view reason, Json details) {
   emit_("stopped", details);
 }
 
+void Notifier::report_resumption() { emit_("continued", {{"threadId", 1}, {"allThreadsContinued", true}}); }
+
 void Notifier::report_exit(int exit_code) {
   emit_("exited", {{"exitCode", exit_code}});
   emit_("terminated", Json::object());

@@ -24,6 +24,8 @@ class Notifier {
 
   /// `details` are further members of the event.
   void report_stop(std::string_view reason, Json details);
+  /// The program runs because of a request of which the client does not know that.
+  void report_resumption();
   /// `exited` and `terminated`.
   void report_exit(int exit_code);
   /// All that the client shows may have changed.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "debugger/session/launch.h"
 #include "interpreter/running/error_message.h"
 
 namespace isocnc::session {
@@ -16,6 +17,8 @@ using namespace std::chrono_literals;
 static constexpr auto kSlice = 4ms;
 /// Between two slices of a run that keeps pace with the clock.
 static constexpr auto kPace = 8ms;
+/// Between two looks at a comparison, which has a thread of its own.
+static constexpr auto kProgress = 100ms;
 /// Messages of log points in a slice, after which the run waits for the client.
 static constexpr std::size_t kMaxMessages = 16;
 
@@ -23,9 +26,15 @@ static constexpr Text kNotLedThere{"the run does not lead to line {}", "l'esecuz
 static constexpr Text kProgramEnd{"end of program after {} blocks, {} s", "fine programma dopo {} blocchi, {} s"};
 static constexpr Text kGoingTo{"Going to line {}", "Verso la riga {}"};
 static constexpr Text kSearching{"Searching back", "Ricerca all'indietro"};
+static constexpr Text kComparison{"Comparing the programs", "Confronto dei programmi"};
 
 RunLoop::RunLoop(rpc::Loop& loop, SessionState& state, Notifier& notifier)
-    : loop_(loop), state_(state), notifier_(notifier), stop_check_(state, notifier), program_check_(loop, state) {}
+    : loop_(loop),
+      state_(state),
+      notifier_(notifier),
+      stop_check_(state, notifier),
+      program_check_(loop, state),
+      difference_search_(loop) {}
 
 void RunLoop::reset(const debuggee::FileWatch& file) {
   ++generation_;
@@ -35,6 +44,7 @@ void RunLoop::reset(const debuggee::FileWatch& file) {
   has_started_ = false;
   stop_check_.expect_judgement();
   program_check_.forget();
+  difference_search_.forget();
 }
 
 void RunLoop::start_program() {
@@ -52,7 +62,7 @@ void RunLoop::begin_program() {
     return loop_.post_at(Clock::now() + kPace, again);
   }
   const LaunchOptions& options = state_.launch_options;
-  if (options.start_line) return go_forward_to_line(*options.start_line, "entry");
+  if (options.start_line) return go_forward_to_line(*options.start_line, {.reason = "entry"});
   const auto due = stop_check_.on_arrival();
   if (options.stop_on_entry && !options.no_debug) return stop({.reason = "entry"});
   if (due) return stop(*due);
@@ -101,6 +111,9 @@ void RunLoop::run_slice() {
       return run_backward(deadline);
     case Activity::GoingToLine:
       return run_to_line(deadline);
+    case Activity::Comparing:
+      notifier_.report_progress(std::string(state_.in_language(kComparison)), 0);
+      return schedule(kProgress);
   }
 }
 
@@ -215,7 +228,7 @@ void RunLoop::step_now(dap::Step step) {
   stop_check_.expect_judgement();
   if (state_.debuggee->present().is_in_block()) return stop({.reason = "step"});
   if (const auto due = end_block(block)) return stop(*due);
-  if (state_.is_launched()) settle("step");
+  if (state_.is_launched()) settle({.reason = "step"});
 }
 
 void RunLoop::step_out() {
@@ -230,27 +243,29 @@ void RunLoop::step_out() {
 
 // --- To a line
 
-void RunLoop::go_to_line(std::size_t line) {
+void RunLoop::go_to_line(std::size_t line) { go_to_line(line, {.reason = "goto"}); }
+
+void RunLoop::go_to_line(std::size_t line, const Stop& arrival) {
   const simulation::Simulation& present = state_.debuggee->present();
   const bool is_within = present.is_in_block() || present.has_ended();
   const bool is_past = line < present.line() || (line == present.line() && is_within);
-  if (!is_past) return go_forward_to_line(line, "goto");
-  post([this, line] { go_backward_to_line(line); });
+  if (!is_past) return go_forward_to_line(line, arrival);
+  post([this, line, arrival] { go_backward_to_line(line, arrival); });
 }
 
-void RunLoop::go_backward_to_line(std::size_t line) {
+void RunLoop::go_backward_to_line(std::size_t line, const Stop& arrival) {
   if (const auto block = state_.debuggee->find_line(line)) {
     state_.exception.reset();
     move_back([&](debuggee::Debuggee& debuggee) { debuggee.go_to_block(*block); });
   } else {
     report_missed_line(line);
   }
-  settle("goto");
+  settle(arrival);
 }
 
-void RunLoop::go_forward_to_line(std::size_t line, std::string_view reason) {
+void RunLoop::go_forward_to_line(std::size_t line, const Stop& arrival) {
   state_.exception.reset();
-  arrival_reason_ = reason;
+  arrival_ = arrival;
   target_line_ = line;
   origin_ = state_.debuggee->present();
   state_.debuggee->skip_to_line(line);
@@ -289,11 +304,33 @@ void RunLoop::arrive_at_line() {
   if (!is_there) report_missed_line(target_line_, present.line());
   if (present.has_ended() && present.run().ending == running::Ending::Error) return stop(stop_check_.at_error());
   if (!is_there) state_.debuggee->return_to(*origin_);
-  settle(arrival_reason_);
+  settle(arrival_);
 }
 
 void RunLoop::report_missed_line(std::size_t line, std::optional<std::uint64_t> place) {
   notifier_.report_output("important", state_.in_language(kNotLedThere, state_.client.to_client_line(line)), place);
+}
+
+// --- To a difference
+
+void RunLoop::run_to_difference(difference::ReferenceProgram reference) {
+  notifier_.report_resumption();
+  start(Activity::Comparing);
+  const difference::ReferenceComparison comparison{.debuggee = state_.debuggee,
+                                                   .options = run_options(state_.launch_options, state_.configuration),
+                                                   .machine = state_.configuration.machine.timed,
+                                                   .reference = std::move(reference),
+                                                   .language = state_.language()};
+  difference_search_.start(comparison, [this, generation = generation_](const difference::FirstDifference& found) {
+    if (generation == generation_ && state_.is_launched()) take_difference(found);
+  });
+}
+
+void RunLoop::take_difference(const difference::FirstDifference& found) {
+  const Stop arrival{.reason = "difference", .details = {{"description", found.text}}};
+  notifier_.report_output(found.line ? "console" : "important", found.text, found.line);
+  if (found.line) return go_to_line(*found.line, arrival);
+  stop(arrival);
 }
 
 // --- Backward
@@ -331,7 +368,7 @@ void RunLoop::go_back_to_start() {
     debuggee.go_to_block(0);
     while (!debuggee.is_at_start()) debuggee.step_back();
   });
-  settle("entry");
+  settle({.reason = "entry"});
 }
 
 void RunLoop::step_back(dap::Step step) {
@@ -364,6 +401,7 @@ void RunLoop::forget_future() {
 void RunLoop::pause() {
   if (!is_running()) return;
   ++generation_;
+  difference_search_.forget();
   loop_.post([this, generation = generation_] {
     if (generation != generation_ || !state_.is_launched()) return;
     if (state_.debuggee->present().has_ended()) return finish(1);
@@ -385,10 +423,10 @@ void RunLoop::stop(const Stop& stop) {
 }
 
 /// The run stands where it was led. What is due there counts after a step.
-void RunLoop::settle(std::string_view reason) {
+void RunLoop::settle(const Stop& arrival) {
   stop_check_.expect_judgement();
   const auto due = stop_check_.on_arrival();
-  stop(due && reason == "step" ? *due : Stop{.reason = reason});
+  stop(due && arrival.reason == "step" ? *due : arrival);
 }
 
 void RunLoop::end_later(int exit_code) {
@@ -398,6 +436,7 @@ void RunLoop::end_later(int exit_code) {
 void RunLoop::finish(int exit_code) {
   notifier_.end_progress();
   ++generation_;
+  difference_search_.forget();
   const bool has_run = std::exchange(activity_, Activity::None) != Activity::None;
   if (!state_.is_launched()) return;
   const simulation::Simulation& present = state_.debuggee->present();
@@ -413,6 +452,7 @@ void RunLoop::finish(int exit_code) {
 
 void RunLoop::abandon() {
   ++generation_;
+  difference_search_.forget();
   activity_ = Activity::None;
   state_.debuggee.reset();
 }

@@ -10,6 +10,7 @@
 #include "debugger/dap/step.h"
 #include "debugger/debuggee/file_watch.h"
 #include "debugger/debuggee/pace.h"
+#include "debugger/difference/difference_search.h"
 #include "debugger/session/backward_search.h"
 #include "debugger/session/notifier.h"
 #include "debugger/session/program_check.h"
@@ -44,6 +45,9 @@ class RunLoop {
   void step_out();
   /// Forward or backward to a line, with the state that a run to it has. Nothing stops the run before.
   void go_to_line(std::size_t line);
+  /// Forward or backward to where the program, as it was launched, comes to do something else than the reference.
+  /// Nothing stops the run before. Stays where there is no difference.
+  void run_to_difference(difference::ReferenceProgram reference);
 
   /// Stops a run where it is.
   void pause();
@@ -62,7 +66,7 @@ class RunLoop {
  private:
   using Clock = std::chrono::steady_clock;
 
-  enum class Activity : std::uint8_t { None, Running, RunningBack, GoingToLine };
+  enum class Activity : std::uint8_t { None, Running, RunningBack, GoingToLine, Comparing };
 
   // Slices.
   void post(const std::function<void()>& task);
@@ -80,8 +84,10 @@ class RunLoop {
   std::optional<Stop> end_block(std::uint64_t block);
   void end_at_error();
   void step_now(dap::Step step);
-  void go_forward_to_line(std::size_t line, std::string_view reason);
-  void go_backward_to_line(std::size_t line);
+  void go_to_line(std::size_t line, const Stop& arrival);
+  void go_forward_to_line(std::size_t line, const Stop& arrival);
+  void go_backward_to_line(std::size_t line, const Stop& arrival);
+  void take_difference(const difference::FirstDifference& found);
   bool pass_block();
   void arrive_at_line();
   void report_missed_line(std::size_t line, std::optional<std::uint64_t> place = {});
@@ -91,7 +97,7 @@ class RunLoop {
 
   // Stops.
   void stop(const Stop& stop);
-  void settle(std::string_view reason);
+  void settle(const Stop& arrival);
   void finish(int exit_code);
   void report_on_the_way();
 
@@ -100,6 +106,7 @@ class RunLoop {
   Notifier& notifier_;
   StopCheck stop_check_;
   ProgramCheck program_check_;
+  difference::DifferenceSearch difference_search_;
   debuggee::FileWatch file_watch_;
   debuggee::Pace pace_;
 
@@ -109,7 +116,7 @@ class RunLoop {
 
   std::optional<BackwardSearch> search_;
   std::size_t target_line_ = 0;
-  std::string_view arrival_reason_ = "goto";
+  Stop arrival_;                                  ///< At target_line_.
   std::optional<simulation::Simulation> origin_;  ///< Where the run to target_line_ began.
 };
 

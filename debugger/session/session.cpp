@@ -151,6 +151,16 @@ void Session::go_to_line(std::size_t line) {
   run_loop_.go_to_line(line);
 }
 
+void Session::run_to_difference(const std::filesystem::path& file) {
+  stopped_debuggee();
+  run_loop_.run_to_difference(read_reference(file, state_));
+}
+
+void Session::run_to_difference(std::string name, std::string text) {
+  stopped_debuggee();
+  run_loop_.run_to_difference(reference_text(std::move(name), std::move(text), state_));
+}
+
 // --- Changing
 
 /// What has been executed after this place in an earlier run is void.

@@ -80,6 +80,11 @@ class Session : public expressions::Controls {
   void step_out();
   /// Forward or backward to a line, with the state that a run to it has. Nothing stops the run before.
   void go_to_line(std::size_t line);
+  /// Forward or backward to the first difference from a file, whose name may be relative to the folder of the program.
+  /// Nothing stops the run before.
+  void run_to_difference(const std::filesystem::path& file);
+  /// The same with a program that is no file; the name is for people.
+  void run_to_difference(std::string name, std::string text);
 
   // --- Changing.
   void set_quantity(const expressions::Quantity& quantity, double value);

@@ -134,7 +134,8 @@ std::optional<breakpoints::Exception> StopCheck::find_coming_overtravel() const 
   if (!state_.exception_filters.judge_motions(debuggee.machine())) return found;
   simulation::Simulation ahead = debuggee.present();
   ahead.trace_block([&](const kinematics::Move& move) {
-    if (!found) found = breakpoints::find_overtravel(move, debuggee.machine(), state_.language());
+    const bool is_in_inches = ahead.run().state.in_inches();
+    if (!found) found = breakpoints::find_overtravel(move, debuggee.machine(), is_in_inches, state_.language());
   });
   return found;
 }

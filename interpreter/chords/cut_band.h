@@ -15,7 +15,7 @@ class CutBand {
   /// Of a straight way of a body with a vertical axis; a plunge if both ends are the same.
   static CutBand along_line(const geometry::Vec2& from, const geometry::Vec2& to, double radius, double side_rim,
                             double end_rim);
-  /// Of a way across an axis in any direction. Its ends count.
+  /// Of a way across an axis in any direction, of any length. Its ends count.
   static CutBand along_slanted(const geometry::Vec3& from, const geometry::Vec3& axis, const geometry::Vec3& travel,
                                double radius, double side_rim);
   /// Of a level arc, counterclockwise seen from above, of at most half a turn; `start` and `end` are from its center.

@@ -13,25 +13,27 @@ using geometry::Vec3;
 static constexpr double kFullTurn = 2 * std::numbers::pi;
 /// Maximum number of chords of a motion.
 static constexpr double kMaxChords = 4096;
-/// Maximum number of distances between a point and a line in one Hausdorff distance.
+/// Maximum number of distances between a point and a line in one direction of a Hausdorff distance.
 static constexpr std::size_t kMaxDistances = 20'000'000;
 
 static double between(double from, double to, double part) { return from + part * (to - from); }
 
 ActionPath::ActionPath(const RecordedRun& run, const MachineAction& motion)
     : run_(run), motion_(motion), is_arc_(motion.arc != MachineAction::kNone) {
+  if (motion.is_by_joints) {
+    if (motion.tool != MachineAction::kNone) tool_length_ = run.tools[motion.tool].length;
+    from_joints_ = kinematics::inverse(run.kinematics, kinematics::coordinates(motion.from), tool_length_);
+    along_joints_ =
+        kinematics::inverse(run.kinematics, kinematics::coordinates(motion.to), tool_length_) - from_joints_;
+  }
   if (!is_arc_) return;
   const ActionArc& arc = run.arcs[motion.arc];
   helix_ = geometry::helix(motion.from.tip, motion.to.tip, arc.center, arc.normal, arc.sweep_deg);
 }
 
 Pose ActionPath::at(double part) const {
-  if (motion_.is_by_joints) {
-    const double length = motion_.tool == MachineAction::kNone ? 0 : run_.tools[motion_.tool].length;
-    const auto from = kinematics::inverse(run_.kinematics, kinematics::coordinates(motion_.from), length);
-    const auto to = kinematics::inverse(run_.kinematics, kinematics::coordinates(motion_.to), length);
-    return kinematics::pose(kinematics::forward(run_.kinematics, from + part * (to - from), length));
-  }
+  if (motion_.is_by_joints)
+    return kinematics::pose(kinematics::forward(run_.kinematics, from_joints_ + part * along_joints_, tool_length_));
   Pose pose{motion_.from.tip + part * (motion_.to.tip - motion_.from.tip), between(motion_.from.b, motion_.to.b, part),
             between(motion_.from.c, motion_.to.c, part)};
   if (!is_arc_) return pose;
@@ -40,8 +42,13 @@ Pose ActionPath::at(double part) const {
   return pose;
 }
 
-std::optional<double> ActionPath::nearest(const Vec3& point, double from_part) const {
-  if (motion_.is_by_joints) return std::nullopt;
+std::optional<double> ActionPath::nearest(const Pose& pose, double from_part) const {
+  const Vec3& point = pose.tip;
+  if (motion_.is_by_joints) {
+    const kinematics::Coordinates joints =
+        kinematics::inverse(run_.kinematics, kinematics::coordinates(pose), tool_length_);
+    return std::clamp(along_joints_.dot(joints - from_joints_) / along_joints_.squaredNorm(), from_part, 1.0);
+  }
   if (!is_arc_) {
     const Vec3 along = motion_.to.tip - motion_.from.tip;
     const double square = along.squaredNorm();
@@ -94,7 +101,8 @@ namespace {
 /// Finds how far the points of a chain are at most from another chain.
 class FarthestPoint {
  public:
-  FarthestPoint(std::span<const Vec3> other, double accuracy) : other_(other), accuracy_(accuracy) {}
+  FarthestPoint(std::span<const Vec3> other, double accuracy, std::size_t& left)
+      : other_(other), accuracy_(accuracy), left_(left) {}
 
   bool look_at(std::span<const Vec3> chain) {
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
@@ -133,7 +141,7 @@ class FarthestPoint {
       squares.to = std::min(squares.to, to);
       squares.maximum = std::min(squares.maximum, std::max(from, to));
     }
-    lines_ += other_.size();
+    left_ -= std::min(left_, other_.size());
     return {std::sqrt(squares.from), std::sqrt(squares.to), std::sqrt(squares.maximum)};
   }
 
@@ -145,7 +153,7 @@ class FarthestPoint {
       parts_.pop_back();
       const Distances far = distances(part);
       farthest_ = std::max({farthest_, far.from, far.to});
-      if (lines_ > kMaxDistances) return false;
+      if (left_ == 0) return false;
       // The distance changes at most as fast as the point, too.
       const double by_length = (far.from + far.to + (part.to - part.from).norm()) / 2;
       if (std::min(far.maximum, by_length) <= farthest_ + accuracy_) continue;
@@ -159,18 +167,28 @@ class FarthestPoint {
   std::span<const Vec3> other_;
   double accuracy_;
   double farthest_ = 0;
-  std::size_t lines_ = 0;
+  std::size_t& left_;  ///< How many distances may be computed.
   std::vector<ChainPart> parts_;
 };
 
 }  // namespace
 
-std::optional<double> distance_of(std::span<const Vec3> a, std::span<const Vec3> b, double accuracy) {
+std::optional<double> distance_of(std::span<const Vec3> a, std::span<const Vec3> b, double accuracy,
+                                  std::size_t* left) {
   if (a.empty() || b.empty()) return std::nullopt;
-  FarthestPoint from_a(b, accuracy);
-  FarthestPoint from_b(a, accuracy);
-  if (!from_a.look_at(a) || !from_b.look_at(b)) return std::nullopt;
-  return std::max(from_a.farthest(), from_b.farthest());
+  // In one direction each.
+  const auto look = [&](std::span<const Vec3> chain, std::span<const Vec3> other) -> std::optional<double> {
+    const std::size_t allowed = std::min(kMaxDistances, left == nullptr ? kMaxDistances : *left);
+    std::size_t rest = allowed;
+    FarthestPoint farthest(other, accuracy, rest);
+    const bool is_known = farthest.look_at(chain);
+    if (left != nullptr) *left -= allowed - rest;
+    return is_known ? std::optional(farthest.farthest()) : std::nullopt;
+  };
+  const std::optional<double> from_a = look(a, b);
+  const std::optional<double> from_b = from_a ? look(b, a) : std::nullopt;
+  if (!from_b) return std::nullopt;
+  return std::max(*from_a, *from_b);
 }
 
 }  // namespace isocnc::comparison

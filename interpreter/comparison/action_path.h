@@ -16,15 +16,18 @@ class ActionPath {
 
   bool is_straight() const { return !is_arc_ && !motion_.is_by_joints; }
   geometry::Pose at(double part) const;
-  /// The nearest place to a point of the path from `from_part` on; for rapids by joints none. `from_part` decides
-  /// between the places of a full circle, too.
-  std::optional<double> nearest(const geometry::Vec3& point, double from_part) const;
+  /// The nearest place to a pose of the path from `from_part` on; of rapids by joints the one that is nearest in
+  /// joints. `from_part` decides between the places of a full circle, too. None if the path is a point.
+  std::optional<double> nearest(const geometry::Pose& pose, double from_part) const;
   double length() const;
 
  private:
   const RecordedRun& run_;
   const MachineAction& motion_;
   bool is_arc_;
+  double tool_length_ = 0;
+  kinematics::Coordinates from_joints_;  ///< Of a rapid by joints.
+  kinematics::Coordinates along_joints_;
   geometry::Helix helix_;
 };
 
@@ -33,8 +36,9 @@ class ActionPath {
 std::vector<geometry::Vec3> chain_of(const RecordedRun& run, std::span<const MachineAction> actions, double deviation);
 
 /// Hausdorff distance of two chains of points, mm: how far a point of one is at most from the other. The result is at
-/// most `accuracy` below. None where it would take too long.
-std::optional<double> distance_of(std::span<const geometry::Vec3> a, std::span<const geometry::Vec3> b,
-                                  double accuracy);
+/// most `accuracy` below. None where it would take too long: `left` is how many distances from points to lines are left
+/// for this and others.
+std::optional<double> distance_of(std::span<const geometry::Vec3> a, std::span<const geometry::Vec3> b, double accuracy,
+                                  std::size_t* left = nullptr);
 
 }  // namespace isocnc::comparison

@@ -17,6 +17,15 @@ static constexpr std::size_t kMaxParts = 10'000;
 /// Points of a curve that are compared.
 static constexpr int kSamples = 8;
 
+bool WorkBudget::take_cells(std::size_t a_count, std::size_t b_count) {
+  constexpr std::size_t kFree = 2500;
+  const std::size_t cells = a_count * b_count;
+  if (cells <= kFree) return true;
+  if (cells > gap_cells) return false;
+  gap_cells -= cells;
+  return true;
+}
+
 static bool turns_together(const Pose& a, const Pose& b, double tolerance) {
   return std::abs(a.b - b.b) <= tolerance && std::abs(a.c - b.c) <= tolerance;
 }
@@ -67,7 +76,7 @@ std::optional<double> beside(const ActionPath& path, double from, double until, 
   for (int i = 1; i <= samples; ++i) {
     Pose pose = path.at(from + (until - from) * i / samples);
     pose.tip += shift;
-    const std::optional<double> part = other.nearest(pose.tip, other_part);
+    const std::optional<double> part = other.nearest(pose, other_part);
     if (!part) return std::nullopt;
     const Pose there = other.at(*part);
     if ((there.tip - pose.tip).squaredNorm() > tolerance * tolerance || !turns_together(there, pose, tolerance))
@@ -91,13 +100,27 @@ static bool is_same_arc(const RunPair& runs, const MachineAction& a, const Machi
          (right.center - left.center - shift).squaredNorm() <= runs.tolerance * runs.tolerance / 4;
 }
 
+/// Whether the joints lead the tip in the same way: one machine, with tools of the same length.
+static bool has_same_head(const RunPair& runs, const MachineAction& a, const MachineAction& b) {
+  const kinematics::Kinematics& left = runs.a.kinematics;
+  const kinematics::Kinematics& right = runs.b.kinematics;
+  const auto length = [](const RecordedRun& run, const MachineAction& motion) {
+    return motion.tool == MachineAction::kNone ? 0 : run.tools[motion.tool].length;
+  };
+  return left.kind == right.kind && left.pivot == right.pivot && left.b_from_c == right.b_from_c &&
+         left.spindle_from_b == right.spindle_from_b && left.b_point == right.b_point &&
+         left.c_point == right.c_point && length(runs.a, a) == length(runs.b, b);
+}
+
 /// Whether a motion goes where the rest of the other one does, to the end of both.
 static bool is_same_rest(const RunPair& runs, const Followed& a, const Followed& b, const Vec3& shift) {
   const MachineAction& left = runs.a.actions[a.index];
   const MachineAction& right = runs.b.actions[b.index];
   if (left.is_line() && right.is_line()) return true;
-  if (left.is_by_joints || right.is_by_joints) return left.is_by_joints && right.is_by_joints;
-  if (a.part == 0 && b.part == 0 && is_same_arc(runs, left, right, shift)) return true;
+  const bool is_whole = a.part == 0 && b.part == 0;
+  if (is_whole && left.is_by_joints && right.is_by_joints && shift.isZero(0) && has_same_head(runs, left, right))
+    return true;
+  if (is_whole && is_same_arc(runs, left, right, shift)) return true;
   const ActionPath a_path(runs.a, left);
   const ActionPath b_path(runs.b, right);
   return beside(a_path, a.part, 1, b_path, b.part, shift, runs.tolerance) &&
@@ -123,8 +146,14 @@ static std::optional<PlaceInBoth> same_dwell(const RunPair& runs, PlaceInBoth pl
 
 bool goes_same_way(const RunPair& runs, const MachineAction& a, const MachineAction& b) {
   if (a.is_line() && b.is_line()) return true;
-  // Rapids by joints go where their ends lead them.
-  if (a.is_by_joints || b.is_by_joints) return a.is_by_joints && b.is_by_joints;
+  if (a.is_by_joints || b.is_by_joints) {
+    if (a.is_by_joints != b.is_by_joints) return false;
+    // Between other ends they go where these lead them.
+    const Vec3 moved = (b.to.tip - a.to.tip) - (b.from.tip - a.from.tip);
+    if (moved.norm() > runs.tolerance || !turns_together(a.from, b.from, runs.tolerance) ||
+        !turns_together(a.to, b.to, runs.tolerance))
+      return true;
+  }
   const Vec3 at_start = b.from.tip - a.from.tip;
   const Vec3 at_end = b.to.tip - a.to.tip;
   const double square = runs.tolerance * runs.tolerance;
@@ -151,6 +180,14 @@ bool is_other_way_around(const RunPair& runs, const MachineAction& a, const Mach
   return left.normal.dot(right.normal) * left.sweep_deg * right.sweep_deg < 0;
 }
 
+bool is_same_action(const RunPair& runs, const MachineAction& a, const MachineAction& b, const Vec3& shift) {
+  if (a.kind != b.kind) return false;
+  if (!a.is_motion()) return is_same_effect(runs, a, b);
+  if (!ends_together(runs, a, b, shift)) return false;
+  if ((a.is_line() && b.is_line()) || (a.is_by_joints && b.is_by_joints)) return true;
+  return (b.from.tip - a.from.tip - shift).norm() <= runs.tolerance && goes_same_way(runs, a, b);
+}
+
 std::optional<PlaceInBoth> same_step(const RunPair& runs, const PlaceInBoth& place, const Vec3& shift,
                                      const OverlapListener& overlap) {
   Followed a{place.a};
@@ -175,7 +212,6 @@ std::optional<PlaceInBoth> same_step(const RunPair& runs, const PlaceInBoth& pla
       if (!is_same_rest(runs, a, b, shift)) return std::nullopt;
       return PlaceInBoth{a.index + 1, b.index + 1};
     }
-    if (left.is_by_joints || right.is_by_joints) return std::nullopt;
     // One of them ends beside the other.
     const ActionPath a_path(runs.a, left);
     const ActionPath b_path(runs.b, right);
@@ -197,7 +233,8 @@ namespace {
 /// Finds the pieces from the start of two runs to their ends.
 class Aligner {
  public:
-  Aligner(const RunPair& runs, const Vec3& shift) : runs_(runs), shift_(shift) {}
+  Aligner(const RunPair& runs, const Vec3& shift)
+      : runs_(runs), shift_(shift), budget_(runs.budget == nullptr ? own_budget_ : *runs.budget) {}
 
   std::vector<AlignedPiece> pieces() {
     while (place_.a < runs_.a.actions.size() || place_.b < runs_.b.actions.size()) {
@@ -215,8 +252,6 @@ class Aligner {
   static constexpr std::size_t kWindow = 40;
   /// Number of steps that have to be the same after a place for it to count.
   static constexpr int kConfirmations = 3;
-  /// Maximum number of pairs of actions that are tried in windows in all: then anchors alone are asked.
-  static constexpr std::size_t kMaxPairs = 200'000'000;
   /// Maximum number of anchors tried in a row.
   static constexpr int kMaxAnchors = 64;
 
@@ -311,12 +346,12 @@ class Aligner {
   }
 
   std::optional<Again> in_window(bool with_new_shift) {
-    if (pairs_ > kMaxPairs) return std::nullopt;
     const std::size_t a_left = runs_.a.actions.size() - place_.a;
     const std::size_t b_left = runs_.b.actions.size() - place_.b;
     for (std::size_t larger = 0; larger < kWindow; ++larger)
       for (std::size_t smaller = 0; smaller <= larger; ++smaller) {
-        pairs_ += 2;
+        if (budget_.window_pairs < 2) return std::nullopt;
+        budget_.window_pairs -= 2;
         if (larger < a_left && smaller < b_left)
           if (const auto again = again_at({place_.a + larger, place_.b + smaller}, with_new_shift)) return again;
         if (smaller < a_left && larger < b_left && smaller != larger)
@@ -369,7 +404,8 @@ class Aligner {
   PlaceInBoth place_;
   Vec3 shift_;
   std::vector<AlignedPiece> pieces_;
-  std::size_t pairs_ = 0;
+  WorkBudget own_budget_;
+  WorkBudget& budget_;
   std::optional<Anchors> anchors_;
 };
 

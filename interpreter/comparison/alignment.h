@@ -25,11 +25,24 @@ struct AlignedPiece {
   geometry::Vec3 shift = geometry::Vec3::Zero();  ///< From a's place to b's at its end; mm. Exactly 0 for no shift.
 };
 
+/// What the differences of two runs may cost in all, so that no program takes longer than these: what is left of it.
+/// Small differences cost nothing, as they take no longer than in proportion to the programs.
+struct WorkBudget {
+  std::size_t window_pairs =
+      200'000'000;                      ///< Pairs of actions that are tried in windows; then anchors alone are asked.
+  std::size_t gap_cells = 20'000'000;   ///< Pairs of actions of gaps that are looked into; then gaps are too large.
+  std::size_t distances = 400'000'000;  ///< From points to lines; then distances are not known.
+
+  /// Takes a number of cells, if there are as many.
+  bool take_cells(std::size_t a_count, std::size_t b_count);
+};
+
 /// Two runs, of which one follows the other.
 struct RunPair {
   const RecordedRun& a;
   const RecordedRun& b;
-  double tolerance = 0;  ///< mm, and degrees for B and C.
+  double tolerance = 0;          ///< mm, and degrees for B and C.
+  WorkBudget* budget = nullptr;  ///< Without it, each difference is limited by itself alone.
 };
 
 /// Called for two motions that go along each other.
@@ -59,6 +72,10 @@ bool goes_same_way(const RunPair& runs, const MachineAction& a, const MachineAct
 
 /// Whether two arcs turn in opposite directions.
 bool is_other_way_around(const RunPair& runs, const MachineAction& a, const MachineAction& b);
+
+/// Whether two actions are the same but for what comes before them: a motion from elsewhere straight to the same
+/// place is, an arc has to be the whole path.
+bool is_same_action(const RunPair& runs, const MachineAction& a, const MachineAction& b, const geometry::Vec3& shift);
 
 /// Aligns two runs, from their starts to their ends. `shift` leads from a's start to that of b. Takes time in
 /// proportion to the actions and, for each difference, to the square of its size, up to a limit (docs/isodiff.md).

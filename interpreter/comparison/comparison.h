@@ -39,6 +39,10 @@ struct BehaviorChange {
   ChangeKind kind = ChangeKind::Moved;
   std::optional<ChangedLines> old_lines;
   std::optional<ChangedLines> new_lines;
+  /// Where each program comes to the change: the line of the first action that has a part in it, or else of the one
+  /// that it does next. From 0.
+  std::size_t old_start = 0;
+  std::size_t new_start = 0;
   std::optional<execution::ToolCode> old_tool;  ///< The mounted one, if the old program has a part in the change.
   std::optional<execution::ToolCode> new_tool;
   /// Moved and Shape: how far a point of one path is at most from the other path, mm, or the length of `shift`; 0 for
@@ -67,8 +71,24 @@ struct ComparisonOptions {
   bool ignores_time = false;  ///< Dwells and exact stops.
 };
 
+/// An order of runs that makes the result independent of which one is the old one: the first one is aligned as `a`.
+bool is_before(const RecordedRun& left, const RecordedRun& right);
+
 /// Compares what the machine does in two runs. Swapping the runs gives the same changes, mirrored.
 std::vector<BehaviorChange> compare(const RecordedRun& old_run, const RecordedRun& new_run,
                                     const ComparisonOptions& options);
+
+/// The next actions of both runs that belong together, as ranges of their indices: both do the same, or nothing in it
+/// fits together, and one range may be empty.
+struct AlignedStep {
+  std::size_t old_begin = 0;
+  std::size_t old_end = 0;
+  std::size_t new_begin = 0;
+  std::size_t new_end = 0;
+  bool is_same = false;
+};
+
+/// Both runs side by side, from their starts to their ends.
+std::vector<AlignedStep> aligned_steps(const RecordedRun& old_run, const RecordedRun& new_run, double tolerance);
 
 }  // namespace isocnc::comparison

@@ -1,9 +1,11 @@
 #include "interpreter/comparison/comparison_text.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "interpreter/dialect/format.h"
 #include "interpreter/simulation/summary.h"
@@ -43,6 +45,10 @@ constexpr Text kInstead{"{} instead of {}", "{} invece di {}"};
 constexpr Text kFrame{"moved by {}: the frame is elsewhere", "spostato di {}: il sistema di riferimento è altrove"};
 constexpr Text kFrameOf{"moved by {}: the frame of line {} is elsewhere",
                         "spostato di {}: il sistema di riferimento della riga {} è altrove"};
+constexpr Text kFrameTurned{"moved by up to {} mm: the frame of line {} is turned",
+                            "spostato fino a {} mm: il sistema di riferimento della riga {} è girato"};
+constexpr Text kFrameTurnedFar{"moved: the frame of line {} is turned",
+                               "spostato: il sistema di riferimento della riga {} è girato"};
 constexpr Text kDwell{"dwell of {} instead of {}", "attesa di {} invece di {}"};
 constexpr Text kDwellAdded{"dwell of {} added", "aggiunta un'attesa di {}"};
 constexpr Text kDwellRemoved{"dwell of {} removed", "tolta un'attesa di {}"};
@@ -55,10 +61,11 @@ constexpr Text kEnds{"ends with {} instead of {}", "finisce con {} invece di {}"
 constexpr Text kEndsElsewhere{"ends with {} instead of {}: from here on {} instead of {}",
                               "finisce con {} invece di {}: da qui in poi {} invece di {}"};
 
-constexpr Text kNoDifference{"no difference\n", "nessuna differenza\n"};
+constexpr Text kNoDifference{"no difference", "nessuna differenza"};
 constexpr Text kBothStop{"both stop at an error: {} on {}, {} on {}\n",
                          "tutti e due si fermano a un errore: {} alla {}, {} alla {}\n"};
-constexpr Text kNoTool{"without a tool\n", "senza utensile\n"};
+constexpr Text kNoTool{"without a tool", "senza utensile"};
+constexpr Text kOperation{"{}, operation {}", "{}, lavorazione {}"};
 constexpr Text kLine{"line {}", "riga {}"};
 constexpr Text kLines{"lines {}-{}", "righe {}-{}"};
 constexpr Text kOldSide{"old {}", "prima {}"};
@@ -68,8 +75,8 @@ constexpr Text kFeedLength{"feed moves: {} mm, were {} mm\n", "lavoro: {} mm, er
 constexpr Text kRapidLength{"rapids: {} mm, were {} mm\n", "rapidi: {} mm, erano {} mm\n"};
 constexpr Text kExtent{"extent in {}: {} to {}, was {} to {} (machine)\n",
                        "ingombro in {}: da {} a {}, era da {} a {} (macchina)\n"};
-constexpr Text kOneDifference{"1 difference\n", "1 differenza\n"};
-constexpr Text kDifferences{"{} differences\n", "{} differenze\n"};
+constexpr Text kOneDifference{"1 difference", "1 differenza"};
+constexpr Text kDifferences{"{} differences", "{} differenze"};
 
 /// A number without zeros at its end.
 std::string trimmed(double number) {
@@ -169,47 +176,45 @@ std::string path_in_words(const BehaviorChange& change, Language language) {
 }
 
 std::string frame_in_words(const BehaviorChange& change, Language language) {
+  if (!change.shift) {
+    const std::size_t line = change.new_cause.value_or(0) + 1;
+    return change.distance ? dialect::format(kFrameTurned, language, shown_distance(*change.distance), line)
+                           : dialect::format(kFrameTurnedFar, language, line);
+  }
   const std::string shift = shown_shift(*change.shift);
   return change.new_cause ? dialect::format(kFrameOf, language, shift, *change.new_cause + 1)
                           : dialect::format(kFrame, language, shift);
 }
 
-std::string totals_in_words(const ComparedRuns& runs, Language language) {
-  constexpr double kShownSeconds = 0.05;
-  constexpr double kShownMm = 0.0005;
-  const RecordedRun& old_run = runs.old_run;
-  const RecordedRun& new_run = runs.new_run;
-  std::string text;
-  if (std::abs(new_run.seconds - old_run.seconds) >= kShownSeconds)
-    text += dialect::format(kCycleTime, language, simulation::shown_time(new_run.seconds),
-                            simulation::shown_time(old_run.seconds), new_run.seconds - old_run.seconds);
-  if (std::abs(new_run.feed_mm - old_run.feed_mm) >= kShownMm)
-    text += dialect::format(kFeedLength, language, trimmed(new_run.feed_mm), trimmed(old_run.feed_mm));
-  if (std::abs(new_run.rapid_mm - old_run.rapid_mm) >= kShownMm)
-    text += dialect::format(kRapidLength, language, trimmed(new_run.rapid_mm), trimmed(old_run.rapid_mm));
-  if (!old_run.has_motion || !new_run.has_motion) return text;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const geometry::Range& before = old_run.extents[axis];
-    const geometry::Range& now = new_run.extents[axis];
-    if (std::abs(before.minimum - now.minimum) < kShownMm && std::abs(before.maximum - now.maximum) < kShownMm)
-      continue;
-    text += dialect::format(kExtent, language, "XYZ"[axis], trimmed(now.minimum), trimmed(now.maximum),
-                            trimmed(before.minimum), trimmed(before.maximum));
-  }
-  return text;
+/// Red for what is removed, green for what is added, yellow for what is otherwise.
+std::string_view color_of(ChangeKind kind) {
+  if (kind == ChangeKind::Removed) return "\x1b[31m";
+  return kind == ChangeKind::Added ? "\x1b[32m" : "\x1b[33m";
 }
 
-/// A comparison ends where both programs stop: what is not run is not compared.
-std::string stop_in_words(const ComparedRuns& runs, Language language) {
-  const std::string_view old_error = error_of(runs.old_run);
-  const std::string_view new_error = error_of(runs.new_run);
-  if (old_error.empty() || new_error.empty()) return "";
-  const auto line = [&](const RecordedRun& run) {
-    const std::size_t last = run.actions.back().line;
-    return shown_lines({last, last}, language);
-  };
-  return dialect::format(kBothStop, language, old_error, line(runs.old_run), new_error, line(runs.new_run));
-}
+/// What a run does between two tool changes, numbered from 1. A tool that has one operation needs no number.
+class Operations {
+ public:
+  explicit Operations(const RecordedRun& run) {
+    for (const MachineAction& action : run.actions) {
+      if (action.kind != ActionKind::Tool) continue;
+      first_lines_.push_back(action.line);
+      ++uses_[run.tools[action.tool].code];
+    }
+  }
+
+  /// The heading of a change.
+  std::string heading(const execution::ToolCode& tool, const ChangedLines& lines, Language language) const {
+    const auto uses = uses_.find(tool);
+    if (uses == uses_.end() || uses->second < 2) return running::tool_name(tool);
+    const auto next = std::upper_bound(first_lines_.begin(), first_lines_.end(), lines.first);
+    return dialect::format(kOperation, language, running::tool_name(tool), next - first_lines_.begin());
+  }
+
+ private:
+  std::vector<std::size_t> first_lines_;
+  std::map<execution::ToolCode, int> uses_;
+};
 
 OrderedJson lines_json(const std::optional<ChangedLines>& lines) {
   return lines ? OrderedJson{lines->first + 1, lines->last + 1} : OrderedJson(nullptr);
@@ -247,28 +252,71 @@ std::string in_words(const BehaviorChange& change, Language language) {
   return "";
 }
 
-std::string text_of(const ComparedRuns& runs, Language language) {
-  if (runs.changes.empty()) return std::string(kNoDifference.in(language)) + stop_in_words(runs, language);
+bool shows_seconds(double difference) { return std::abs(difference) >= 0.05; }
+bool shows_mm(double difference) { return std::abs(difference) >= 0.0005; }
+
+std::string changes_text(const ComparedRuns& runs, const TextStyle& style) {
+  const Language language = style.language;
+  const Operations old_operations(runs.old_run);
+  const Operations new_operations(runs.new_run);
   std::string text;
-  std::optional<std::optional<execution::ToolCode>> group;
+  std::optional<std::string> group;
   for (const BehaviorChange& change : runs.changes) {
-    const std::optional<execution::ToolCode> tool = change.tool();
-    if (!group || *group != tool) text += tool ? running::tool_name(*tool) + '\n' : std::string(kNoTool.in(language));
-    group = tool;
-    text += fmt::format("  {}: {}\n", shown_place(change, language), in_words(change, language));
+    const std::string heading =
+        change.new_tool && change.new_lines   ? new_operations.heading(*change.new_tool, *change.new_lines, language)
+        : change.old_tool && change.old_lines ? old_operations.heading(*change.old_tool, *change.old_lines, language)
+                                              : std::string(kNoTool.in(language));
+    if (group != heading) text += fmt::format("{}{}{}\n", style.paint(kBold), heading, style.paint(kReset));
+    group = heading;
+    text += fmt::format("  {}: {}{}{}\n", shown_place(change, language), style.paint(color_of(change.kind)),
+                        in_words(change, language), style.paint(kReset));
   }
-  text += totals_in_words(runs, language) + stop_in_words(runs, language);
-  const std::size_t count = runs.changes.size();
-  return text +
-         (count == 1 ? std::string(kOneDifference.in(language)) : dialect::format(kDifferences, language, count));
+  return text;
 }
 
-std::string json_of(const ComparedRuns& runs, Language language) {
-  OrderedJson json;
-  json["same"] = runs.changes.empty();
-  json["old"] = {{"time", runs.old_run.seconds}};
-  json["new"] = {{"time", runs.new_run.seconds}};
-  json["changes"] = OrderedJson::array();
+std::string totals_text(const ComparedRuns& runs, Language language) {
+  const RecordedRun& old_run = runs.old_run;
+  const RecordedRun& new_run = runs.new_run;
+  std::string text;
+  if (shows_seconds(new_run.seconds - old_run.seconds))
+    text += dialect::format(kCycleTime, language, simulation::shown_time(new_run.seconds),
+                            simulation::shown_time(old_run.seconds), new_run.seconds - old_run.seconds);
+  if (shows_mm(new_run.feed_mm - old_run.feed_mm))
+    text += dialect::format(kFeedLength, language, trimmed(new_run.feed_mm), trimmed(old_run.feed_mm));
+  if (shows_mm(new_run.rapid_mm - old_run.rapid_mm))
+    text += dialect::format(kRapidLength, language, trimmed(new_run.rapid_mm), trimmed(old_run.rapid_mm));
+  if (!old_run.has_motion || !new_run.has_motion) return text;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const geometry::Range& before = old_run.extents[axis];
+    const geometry::Range& now = new_run.extents[axis];
+    if (!shows_mm(before.minimum - now.minimum) && !shows_mm(before.maximum - now.maximum)) continue;
+    text += dialect::format(kExtent, language, "XYZ"[axis], trimmed(now.minimum), trimmed(now.maximum),
+                            trimmed(before.minimum), trimmed(before.maximum));
+  }
+  return text;
+}
+
+std::string stop_text(const ComparedRuns& runs, Language language) {
+  const std::string_view old_error = error_of(runs.old_run);
+  const std::string_view new_error = error_of(runs.new_run);
+  if (old_error.empty() || new_error.empty()) return "";
+  const auto line = [&](const RecordedRun& run) {
+    const std::size_t last = run.actions.back().line;
+    return shown_lines({last, last}, language);
+  };
+  return dialect::format(kBothStop, language, old_error, line(runs.old_run), new_error, line(runs.new_run));
+}
+
+std::string count_text(const ComparedRuns& runs, const TextStyle& style) {
+  const std::size_t count = runs.changes.size();
+  const std::string text = count == 0   ? std::string(kNoDifference.in(style.language))
+                           : count == 1 ? std::string(kOneDifference.in(style.language))
+                                        : dialect::format(kDifferences, style.language, count);
+  return fmt::format("{}{}{}\n", style.paint(kBold), text, style.paint(kReset));
+}
+
+OrderedJson changes_json(const ComparedRuns& runs, Language language) {
+  OrderedJson changes = OrderedJson::array();
   for (const BehaviorChange& change : runs.changes) {
     OrderedJson each;
     each["kind"] = name_of(change.kind);
@@ -278,8 +326,27 @@ std::string json_of(const ComparedRuns& runs, Language language) {
     each["tool"] = tool ? OrderedJson(running::tool_name(*tool)) : OrderedJson(nullptr);
     each["distance"] = change.distance ? OrderedJson(*change.distance) : OrderedJson(nullptr);
     each["text"] = in_words(change, language);
-    json["changes"].push_back(std::move(each));
+    changes.push_back(std::move(each));
   }
+  return changes;
+}
+
+OrderedJson run_json(const RecordedRun& run) {
+  OrderedJson json = {{"time", run.seconds}, {"feedMm", run.feed_mm}, {"rapidMm", run.rapid_mm}, {"extents", nullptr}};
+  if (run.has_motion)
+    for (std::size_t axis = 0; axis < run.extents.size(); ++axis)
+      json["extents"][std::string(1, "XYZ"[axis])] = {run.extents[axis].minimum, run.extents[axis].maximum};
+  json["tools"] = OrderedJson::array();
+  for (const ActionTool& tool : run.tools)
+    json["tools"].push_back({{"tool", running::tool_name(tool.code)}, {"time", tool.seconds}});
+  return json;
+}
+
+std::string json_of(const ComparedRuns& runs, Language language) {
+  const OrderedJson json = {{"same", runs.changes.empty()},
+                            {"old", run_json(runs.old_run)},
+                            {"new", run_json(runs.new_run)},
+                            {"changes", changes_json(runs, language)}};
   return json.dump() + '\n';
 }
 

@@ -32,6 +32,7 @@ std::optional<std::vector<GapStep>> gap_steps(const RunPair& runs, const Aligned
   if (rows == 0 || columns == 0)
     return std::vector<GapStep>(rows + columns, rows == 0 ? GapStep::OnlyInB : GapStep::OnlyInA);
   if (is_too_large(rows, columns)) return std::nullopt;
+  if (runs.budget != nullptr && !runs.budget->take_cells(rows, columns)) return std::nullopt;
   std::vector<GapStep> last((rows + 1) * (columns + 1), GapStep::OnlyInB);
   std::vector<float> costs(columns + 1);
   for (std::size_t k = 0; k <= columns; ++k) costs[k] = static_cast<float>(k);

@@ -17,7 +17,7 @@ enum class GapStep : std::uint8_t { Same, Replaced, OnlyInA, OnlyInB };
 bool is_too_large(std::size_t a_count, std::size_t b_count);
 
 /// The steps through a gap that change the least. `shift` is the one before the gap, `gap.shift` the one after it. None
-/// for a gap that is too large.
+/// for a gap that is too large, or if the budget is used up.
 std::optional<std::vector<GapStep>> gap_steps(const RunPair& runs, const AlignedPiece& gap,
                                               const geometry::Vec3& shift);
 

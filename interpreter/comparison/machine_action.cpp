@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "interpreter/kinematics/travel.h"
 #include "interpreter/simulation/spindle_turn.h"
-#include "interpreter/simulation/timed_run.h"
 
 namespace isocnc::comparison {
 
@@ -22,9 +21,14 @@ class ActionRecorder {
     run_.frames.emplace_back();
   }
 
-  void take(const simulation::TimedEvent& timed) {
+  /// `made` is the motion of the event; null if it has none.
+  void take(const simulation::TimedEvent& timed, kinematics::MadeMove* made) {
     line_ = timed.event.line;
+    made_ = made;
     std::visit([&](const auto& what) { add(what, timed); }, timed.event.what);
+    const double seconds = timed.duration + timed.wait;
+    (tool_ == MachineAction::kNone ? run_.seconds_without_tool : run_.tools[tool_].seconds) += seconds;
+    run_.seconds = std::max(run_.seconds, timed.start + seconds);
     const simulation::Timing::SpindleMotion turned = simulation::spindle_after(timed.event, spindle_, spindle_speed_);
     if (turned == spindle_) return;
     spindle_ = turned;
@@ -35,12 +39,11 @@ class ActionRecorder {
     action.value = turned.speed;
   }
 
-  RecordedRun finish(const running::RunResult& result, double seconds) {
+  RecordedRun finish(const running::RunResult& result) {
     line_ = result.line;
     MachineAction& end = append(ActionKind::End);
     const bool is_error = result.ending == running::Ending::Error;
     end.number = is_error ? 1 + static_cast<std::uint32_t>(result.error.id) : 0;
-    run_.seconds = seconds;
     return std::move(run_);
   }
 
@@ -60,8 +63,8 @@ class ActionRecorder {
     const bool goes = move.is_arc ? move.sweep_deg != 0 : turn + (move.to.tip - move.from.tip).norm() > kNoMotion;
     if (goes) {
       add_motion(event, move, turn);
-      if (event.kind == execution::MoveKind::Rapid) add_travel(run_.rapid_mm, move);
-      if (event.kind != execution::MoveKind::Rapid) add_travel(run_.feed_mm, move);
+      if (event.kind == execution::MoveKind::Rapid) add_travel(run_.rapid_mm);
+      if (event.kind != execution::MoveKind::Rapid) add_travel(run_.feed_mm);
     }
     if (move.exact_stop) append(ActionKind::ExactStop);
   }
@@ -79,8 +82,8 @@ class ActionRecorder {
     action.arc = static_cast<std::uint32_t>(run_.arcs.size());
     run_.arcs.push_back({move.center, move.normal, move.sweep_deg});
   }
-  void add_travel(double& length, const kinematics::Move& move) {
-    const kinematics::TipTravel travel = kinematics::tip_travel(machine_.motion, move);
+  void add_travel(double& length) {
+    const kinematics::TipTravel& travel = made_->tip_travel();
     length += travel.length;
     if (!run_.has_motion) run_.extents = travel.extents;
     run_.has_motion = true;
@@ -118,6 +121,7 @@ class ActionRecorder {
   const simulation::TimedMachine& machine_;
   RecordedRun run_;
   std::size_t line_ = 0;
+  kinematics::MadeMove* made_ = nullptr;
   std::uint32_t tool_ = MachineAction::kNone;
   simulation::Timing::SpindleMotion spindle_;
   double spindle_speed_ = 0;
@@ -130,15 +134,33 @@ std::string_view error_of(const RecordedRun& run) {
   return number == 0 ? std::string_view() : dialect::definition(static_cast<dialect::DiagnosticId>(number - 1)).code;
 }
 
-RecordedRun record(std::string_view text, const running::RunOptions& options, const simulation::TimedMachine& machine) {
+RecordedRun record(std::string_view text, running::RunOptions options, const simulation::TimedMachine& machine,
+                   const RecordingListeners& listeners) {
   ActionRecorder recorder(machine);
-  double seconds = 0;
-  const running::RunResult result =
-      simulation::run_timed(text, options, machine, {.event = [&](const simulation::TimedEvent& timed) {
-                              recorder.take(timed);
-                              seconds = std::max(seconds, timed.start + timed.duration + timed.wait);
-                            }});
-  return recorder.finish(result, seconds);
+  simulation::Timing timing(machine, {.event =
+                                          [&](const simulation::TimedEvent& timed) {
+                                            std::optional<kinematics::MadeMove> made;
+                                            if (timed.move) made.emplace(machine.motion, *timed.move);
+                                            recorder.take(timed, made ? &*made : nullptr);
+                                            if (listeners.made) listeners.made(timed, made ? &*made : nullptr);
+                                          },
+                                      .stretch = listeners.stretch});
+  simulation::Compensation compensation(machine);
+  const simulation::Compensation::Listeners compensated{
+      .event = [&](const running::Event& event) { timing.take(event); },
+      .warning =
+          [&](const simulation::RunWarning& warning) {
+            if (listeners.warning) listeners.warning(warning);
+          }};
+  options.before_block = listeners.block;
+  const running::RunResult result = run(text, options, [&](const running::Event& event) {
+    if (listeners.programmed) listeners.programmed(event);
+    compensation.take(event, compensated);
+  });
+  compensation.finish(compensated);
+  timing.finish();
+  if (listeners.ended) listeners.ended(result);
+  return recorder.finish(result);
 }
 
 }  // namespace isocnc::comparison

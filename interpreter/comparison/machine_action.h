@@ -3,13 +3,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string_view>
 #include <vector>
 
 #include "interpreter/geometry/range.h"
 #include "interpreter/kinematics/kinematics.h"
+#include "interpreter/kinematics/made_move.h"
 #include "interpreter/running/runner.h"
+#include "interpreter/simulation/compensation.h"
 #include "interpreter/simulation/timing.h"
 
 namespace isocnc::comparison {
@@ -49,7 +52,8 @@ struct ActionArc {
 
 struct ActionTool {
   execution::ToolCode code;
-  double length = 0;  ///< mm.
+  double length = 0;   ///< mm.
+  double seconds = 0;  ///< That it is mounted, with its tool changes; over all of its uses.
 };
 
 struct ActionFrame {
@@ -73,9 +77,10 @@ struct RecordedRun {
   std::vector<running::FunctionEvent> functions;
   std::vector<ActionDecision> decisions;
   kinematics::Kinematics kinematics;
-  double seconds = 0;   ///< Cycle time.
-  double feed_mm = 0;   ///< Length of the tip's path in feed moves.
-  double rapid_mm = 0;  ///< And in rapids.
+  double seconds = 0;               ///< Cycle time.
+  double seconds_without_tool = 0;  ///< The part of it before the first tool change.
+  double feed_mm = 0;               ///< Length of the tip's path in feed moves.
+  double rapid_mm = 0;              ///< And in rapids.
   bool has_motion = false;
   std::array<geometry::Range, 3> extents;  ///< Of the tip, machine frame; without meaning where there is no motion.
 };
@@ -83,7 +88,19 @@ struct RecordedRun {
 /// The code of the error that ended a run, such as ISO031; empty for a run to its M02.
 std::string_view error_of(const RecordedRun& run);
 
-/// Runs a program on the machine, with compensation and times.
-RecordedRun record(std::string_view text, const running::RunOptions& options, const simulation::TimedMachine& machine);
+/// What others want to hear of a run that is recorded. Each is optional.
+struct RecordingListeners {
+  std::function<void(const running::Block&)> block;       ///< Each block, before it is executed.
+  std::function<void(const running::Event&)> programmed;  ///< Events as programmed.
+  std::function<void(const simulation::RunWarning&)> warning;
+  /// Events as the machine makes them; a motion is asked once for all.
+  std::function<void(const simulation::TimedEvent&, kinematics::MadeMove*)> made;
+  std::function<void(const motion::Stretch&, const simulation::TimedEvent&)> stretch;
+  std::function<void(const running::RunResult&)> ended;
+};
+
+/// Runs a program on the machine, with compensation and times. `options.before_block` is replaced.
+RecordedRun record(std::string_view text, running::RunOptions options, const simulation::TimedMachine& machine,
+                   const RecordingListeners& listeners = {});
 
 }  // namespace isocnc::comparison

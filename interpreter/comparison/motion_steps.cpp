@@ -115,6 +115,23 @@ bool MotionBlock::is_same_path() const {
                      [](const MotionStep& step) { return step.kind == MotionStep::Kind::Same; });
 }
 
+DifferentPart part_at(const std::vector<AlignedPiece>& pieces, std::size_t& index) {
+  const AlignedPiece& piece = pieces[index];
+  DifferentPart part{.actions = {piece.a_begin, piece.a_end, piece.b_begin, piece.b_end},
+                     .before = index == 0 ? Vec3(Vec3::Zero()) : pieces[index - 1].shift,
+                     .after = piece.shift,
+                     .is_closed = piece.kind == AlignedPiece::Kind::Closing};
+  if (part.is_closed || index + 1 == pieces.size()) return part;
+  const AlignedPiece& next = pieces[index + 1];
+  part.after = next.shift;
+  part.is_closed = next.kind == AlignedPiece::Kind::Closing;
+  if (!part.is_closed) return part;
+  part.actions.a_end = next.a_end;
+  part.actions.b_end = next.b_end;
+  ++index;
+  return part;
+}
+
 std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart& part) {
   const ActionRanges& at = part.actions;
   const std::size_t closing = part.is_closed ? 1 : 0;
@@ -122,9 +139,12 @@ std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart
   MotionBlock block;
   block.a_actions = take_motions(runs.a, at.a_begin, at.a_end, block.a);
   block.b_actions = take_motions(runs.b, at.b_begin, at.b_end, block.b);
-  const RunPair motions{block.a, block.b, runs.tolerance};
+  const RunPair motions{block.a, block.b, runs.tolerance, runs.budget};
   const std::size_t a_count = block.a_actions.size();
   const std::size_t b_count = block.b_actions.size();
+  if (runs.budget != nullptr &&
+      !runs.budget->take_cells(at.a_end - at.a_begin - a_count, at.b_end - at.b_begin - b_count))
+    return std::nullopt;
   std::vector<AlignedPiece> pieces;
   if (a_count < at.a_end - at.a_begin || b_count < at.b_end - at.b_begin) {
     // What stands between the motions has kept them apart.

@@ -51,7 +51,12 @@ struct DifferentPart {
   bool is_closed = false;  ///< Its last actions are motions that end in the same place, but for `after`.
 };
 
-/// The motions of a part, step by step. None for a part that is too large.
+/// The part that begins with a piece that is not Same, together with the motions that close it. Those may be the next
+/// piece: `index` becomes that of the part's last piece.
+DifferentPart part_at(const std::vector<AlignedPiece>& pieces, std::size_t& index);
+
+/// The motions of a part, step by step. None for a part that is too large, or if the budget is used up, also for what
+/// stands between the motions (effect_steps).
 std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart& part);
 
 }  // namespace isocnc::comparison

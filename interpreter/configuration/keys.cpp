@@ -12,6 +12,7 @@
 #include "interpreter/dialect/codes.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/solids/tool_shapes.h"
+#include "interpreter/verification/material.h"
 
 namespace isocnc::configuration {
 
@@ -805,7 +806,7 @@ static void add_setups(std::vector<Key>& keys) {
   keys.push_back(
       {.path = "setups[].resolution",
        .kind = KeyKind::Number,
-       .range = {0.01, 100},
+       .range = {verification::kFinestResolution, verification::kCoarsestResolution},
        .unit = units::kMillimeters,
        .documentation = {"How fine the stock is simulated.", "Quanto è fine la simulazione del grezzo."},
        .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].resolution; }});

@@ -203,6 +203,9 @@ inline constexpr dialect::Text kStockVersion = {
     "{0} è stato scritto da un'altra versione di isorun; si riscriva con --stock-out"};
 inline constexpr dialect::Text kStockBroken = {"{0} is damaged, at byte {1}; write it again with isorun --stock-out",
                                                "{0} è rovinato, al byte {1}; si riscriva con isorun --stock-out"};
+inline constexpr dialect::Text kStockDamaged = {
+    "{0} is damaged: its check sum is wrong; write it again with isorun --stock-out",
+    "{0} è rovinato: la somma di controllo non torna; si riscriva con isorun --stock-out"};
 inline constexpr dialect::Text kStockTooLarge = {"{0} takes more memory than there is for a stock",
                                                  "{0} occupa più memoria di quella che c'è per un grezzo"};
 }  // namespace mistakes

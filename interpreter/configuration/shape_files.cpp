@@ -139,6 +139,8 @@ ShapeFiles::StockOrMistake ShapeFiles::read_stock(const fs::path& file, const st
       return mistake(mistakes::kStockVersion, name);
     case Kind::TooLarge:
       return mistake(mistakes::kStockTooLarge, name);
+    case Kind::Damaged:
+      return mistake(mistakes::kStockDamaged, name);
     case Kind::Truncated:
     case Kind::TooLong:
     case Kind::ImpossibleValue:

@@ -318,6 +318,8 @@ constexpr const GCode& g_code(GRole role) {
 inline constexpr std::uint8_t kProfileReduction = 39;
 inline constexpr std::uint8_t kFiveAxis = 49;
 inline constexpr std::uint8_t kInches = 70;
+/// Length of a unit of the program, mm: of an inch under G70.
+constexpr double mm_per_unit(bool is_in_inches) { return is_in_inches ? 25.4 : 1; }
 inline constexpr std::uint8_t kMillimeters = 71;
 inline constexpr std::uint8_t kAbsolute = 90;
 inline constexpr std::uint8_t kIncremental = 91;

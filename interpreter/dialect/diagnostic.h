@@ -58,6 +58,8 @@ struct CauseDef {
 ///
 /// A message may name `{text}` (the program text under the finding's mark), `{other}` (that under its second mark), the
 /// values in `arguments` by name, and `{who}` and `{whom}`, the names from outside the program that it brings along.
+/// After a length of a run `{unit}` is its unit, `mm` or, where the block is under G70, `in`; `{inches}` stands where
+/// none is needed but there, and is empty or ` (inches)`.
 struct DiagnosticDef {
   std::string_view code;  ///< `ISO012`, `E004`, `W001`: stable; used in selections and suppressions.
   std::string_view name;  ///< `head-not-selected`: stable; used in the code and by readers.

@@ -28,6 +28,16 @@ std::string format_value(double value) {
   return text == "-0" ? "0" : text;
 }
 
+std::string_view unit_of_length(bool is_in_inches, Language language) {
+  static constexpr Text kInches = {"in", "pollici"};
+  return is_in_inches ? kInches.in(language) : "mm";
+}
+
+std::string_view inches_note(bool is_in_inches, Language language) {
+  static constexpr Text kNote = {" (inches)", " (pollici)"};
+  return is_in_inches ? kNote.in(language) : std::string_view();
+}
+
 /// Shortens a long piece of program text, which would push the message off the screen; the mark shows it whole.
 static std::string shortened(std::string_view text) {
   constexpr std::size_t kMaxShownBytes = 40;
@@ -106,6 +116,8 @@ std::string message(Cause cause, Language language, const Quoted& quoted) {
     const std::string_view name = pattern.substr(open + 1, close - open - 1);
     if (name == "text") result.append(quote(quoted.text));
     if (name == "other") result.append(quote(quoted.other));
+    if (name == "unit") result.append(unit_of_length(quoted.is_in_inches, language));
+    if (name == "inches") result.append(inches_note(quoted.is_in_inches, language));
     if (name == "who" && !quoted.names.empty()) result.append(quote(quoted.names[0].in(language)));
     if (name == "whom" && quoted.names.size() > 1) result.append(quote(quoted.names[1].in(language)));
     for (std::size_t i = 0; i < quoted.values.size() && i < kMaxArguments; ++i)

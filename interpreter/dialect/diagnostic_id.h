@@ -95,6 +95,7 @@ struct Quoted {
   std::string_view other = {};  ///< That under its second mark.
   std::span<const double> values = {};
   std::span<const GivenName> names = {};  ///< `{who}` and `{whom}`.
+  bool is_in_inches = false;              ///< What `{unit}` and `{inches}` say.
 };
 
 /// The message of a cause in `language`.
@@ -102,6 +103,12 @@ std::string message(Cause cause, Language language, const Quoted& quoted);
 
 /// A value as messages show it: at most four decimals, no trailing zeros.
 std::string format_value(double value);
+
+/// `mm`; under G70 `in` (`pollici`).
+std::string_view unit_of_length(bool is_in_inches, Language language);
+
+/// Empty; under G70 ` (inches)`.
+std::string_view inches_note(bool is_in_inches, Language language);
 
 /// `error`, `warning`, `info` (`errore`, `avviso`, `nota`).
 std::string_view severity_name(Severity severity, Language language);

@@ -1384,16 +1384,18 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4.1",
      .arguments = {"depth", "x", "y", "z", "time", "enough"},
      .title = {.en = "Rapid through material", .it = "Rapido nel materiale"},
-     .message = {.en = "{who} goes through material in rapid: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the "
-                       "start; Z{enough} would have been enough",
-                 .it = "{who} attraversa il materiale in rapido: {depth} mm di profondità in X{x} Y{y} Z{z}, {time} s "
-                       "dopo l'avvio; bastava Z{enough}"},
-     .causes = {{.cause = "at-any-height",
-                 .message = {.en = "{who} goes through material in rapid: {depth} mm deep at X{x} Y{y} Z{z}, {time} s "
-                                   "after the start",
-                             .it = "{who} attraversa il materiale in rapido: {depth} mm di profondità in X{x} Y{y} "
-                                   "Z{z}, {time} s dopo l'avvio"},
-                 .wrong = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z30 F1000\n[!G00 X380!]\nZ50\nM05\nM02\n"}},
+     .message =
+         {.en = "{who} goes through material in rapid: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the "
+                "start; Z{enough} would have been enough",
+          .it = "{who} attraversa il materiale in rapido: {depth} {unit} di profondità in X{x} Y{y} Z{z}, {time} s "
+                "dopo l'avvio; bastava Z{enough}"},
+     .causes =
+         {{.cause = "at-any-height",
+           .message = {.en = "{who} goes through material in rapid: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s "
+                             "after the start",
+                       .it = "{who} attraversa il materiale in rapido: {depth} {unit} di profondità in X{x} Y{y} "
+                             "Z{z}, {time} s dopo l'avvio"},
+           .wrong = "M06 T101001\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z30 F1000\n[!G00 X380!]\nZ50\nM05\nM02\n"}},
      .explanation =
          {.en = "In rapid the machine goes as fast as it can, and the cutter meets what is left of the blank. Rapids "
                 "are not straight where the axes need different times: what counts is the path that the machine really "
@@ -1417,16 +1419,17 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.3",
      .arguments = {"depth", "x", "y", "z", "time", "enough"},
      .title = {.en = "Holder or shank in material", .it = "Portautensile o gambo nel materiale"},
-     .message = {.en = "{who} is in the material: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start; "
+     .message = {.en = "{who} is in the material: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the start; "
                        "Z{enough} would have been enough",
-                 .it = "{who} è nel materiale: {depth} mm di profondità in X{x} Y{y} Z{z}, {time} s dopo l'avvio; "
+                 .it = "{who} è nel materiale: {depth} {unit} di profondità in X{x} Y{y} Z{z}, {time} s dopo l'avvio; "
                        "bastava Z{enough}"},
-     .causes = {{.cause = "at-any-height",
-                 .message = {.en = "{who} is in the material: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the "
-                                   "start",
-                             .it = "{who} è nel materiale: {depth} mm di profondità in X{x} Y{y} Z{z}, {time} s dopo "
-                                   "l'avvio"},
-                 .wrong = "M06 T101004\nS12000 M03\nG00 X288 Y150 Z50\nZ-25\nM05\n[!M06 T101001!]\nG00 Z50\nM02\n"}},
+     .causes =
+         {{.cause = "at-any-height",
+           .message = {.en = "{who} is in the material: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the "
+                             "start",
+                       .it = "{who} è nel materiale: {depth} {unit} di profondità in X{x} Y{y} Z{z}, {time} s dopo "
+                             "l'avvio"},
+           .wrong = "M06 T101004\nS12000 M03\nG00 X288 Y150 Z50\nZ-25\nM05\n[!M06 T101001!]\nG00 Z50\nM02\n"}},
      .explanation =
          {.en = "What does not cut meets what is left of the blank: the shank, the holder or the spindle nose. The "
                 "message names the deepest place, and the Z at which this motion would have met nothing. Go less deep, "
@@ -1444,8 +1447,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4",
      .arguments = {"depth", "x", "y", "z", "time"},
      .title = {.en = "Fixture that is hit", .it = "Urto contro un'attrezzatura"},
-     .message = {.en = "{who} hits {whom}: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start",
-                 .it = "{who} urta {whom}: entra di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
+     .message = {.en = "{who} hits {whom}: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the start",
+                 .it = "{who} urta {whom}: entra di {depth} {unit} in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
      .explanation =
          {.en = "On the path that the machine really takes, the tool, its holder, the spindle nose or the head meets a "
                 "cup, a clamp or a stop of the setup. The finding stands where it first touches and gives the deepest "
@@ -1467,8 +1470,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4",
      .arguments = {"depth", "x", "y", "z", "time"},
      .title = {.en = "Machine that is hit", .it = "Urto contro la macchina"},
-     .message = {.en = "{who} hits {whom}: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start",
-                 .it = "{who} urta {whom}: entra di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
+     .message = {.en = "{who} hits {whom}: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the start",
+                 .it = "{who} urta {whom}: entra di {depth} {unit} in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
      .explanation =
          {.en =
               "On the path that the machine really takes, a moving body meets the table, another body of the machine, "
@@ -1491,8 +1494,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4",
      .arguments = {"depth", "x", "y", "z", "time"},
      .title = {.en = "Finished part that is cut into", .it = "Pezzo finito intaccato"},
-     .message = {.en = "{who} goes into {whom}: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start",
-                 .it = "{who} intacca {whom} di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
+     .message = {.en = "{who} goes into {whom}: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the start",
+                 .it = "{who} intacca {whom} di {depth} {unit} in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
      .explanation =
          {.en = "The motion takes away what the finished part of the setup (target) still has. For the cutter, depths "
                 "up to the tolerance of the target are accepted and not counted; shank and holder may not touch it. "
@@ -1512,9 +1515,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.2",
      .arguments = {"depth", "x", "y", "z", "time"},
      .title = {.en = "Cut with the spindle stopped", .it = "Taglio a mandrino fermo"},
-     .message = {.en = "{who} cuts while the spindle stands: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the "
+     .message = {.en = "{who} cuts while the spindle stands: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the "
                        "start",
-                 .it = "{who} taglia a mandrino fermo: {depth} mm di profondità in X{x} Y{y} Z{z}, {time} s dopo "
+                 .it = "{who} taglia a mandrino fermo: {depth} {unit} di profondità in X{x} Y{y} Z{z}, {time} s dopo "
                        "l'avvio"},
      .explanation =
          {.en = "The motion removes material, and the spindle does not turn: no M03 or M04 came before, or an M05 or a "
@@ -1532,9 +1535,10 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4",
      .arguments = {"axis", "reached", "limit"},
      .title = {.en = "Joint outside its travel", .it = "Asse macchina fuori corsa"},
-     .message = {.en = "the machine's {axis} leaves its travel: it goes to {reached}, and the travel ends at {limit}",
-                 .it = "l'asse {axis} della macchina esce dalla corsa: arriva a {reached}, e la corsa finisce a "
-                       "{limit}"},
+     .message =
+         {.en = "the machine's {axis} leaves its travel: it goes to {reached}, and the travel ends at {limit}{inches}",
+          .it = "l'asse {axis} della macchina esce dalla corsa: arriva a {reached}, e la corsa finisce a "
+                "{limit}{inches}"},
      .explanation =
          {.en = "During this motion a joint of the machine passes the end of its travel. The joints X, Y and Z "
                 "are those of the spindle nose: the length of the tool, and what B and C of the head swing, lie "
@@ -2075,10 +2079,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4",
      .arguments = {"axis", "reached", "limit"},
      .title = {.en = "Axis travel exceeded", .it = "Asse fuori corsa"},
-     .message =
-         {.en = "{axis} goes to {reached} in machine coordinates, and its travel ends at {limit}",
-          .it =
-              "l'asse {axis} va fuori corsa: arriva a {reached} in coordinate macchina, e la corsa finisce a {limit}"},
+     .message = {.en = "{axis} goes to {reached} in machine coordinates, and its travel ends at {limit}{inches}",
+                 .it = "l'asse {axis} va fuori corsa: arriva a {reached} in coordinate macchina, e la corsa finisce a "
+                       "{limit}{inches}"},
      .explanation =
          {.en =
               "During this motion, the bulge of an arc included, the tool tip leaves the travel that the "
@@ -2215,8 +2218,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3",
      .arguments = {"radius"},
      .title = {.en = "Cutter that goes into the contour", .it = "Fresa che intacca il profilo"},
-     .message = {.en = "here a cutter of radius {radius} mm goes into the contour that it should leave",
-                 .it = "qui una fresa di raggio {radius} mm intacca il profilo che deve restare"},
+     .message = {.en = "here a cutter of radius {radius} {unit} goes into the contour that it should leave",
+                 .it = "qui una fresa di raggio {radius} {unit} intacca il profilo che deve restare"},
      .explanation =
          {.en = "Beside the contour there is no room for the cutter: a slot is narrower than it, an inside corner has "
                 "steps shorter than it, or the way on or off the contour leads across it. Mount a smaller cutter, "
@@ -2235,8 +2238,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3",
      .arguments = {"arc", "radius"},
      .title = {.en = "Inside arc smaller than the cutter", .it = "Arco interno più piccolo della fresa"},
-     .message = {.en = "an inside arc of radius {arc} mm is too small for a cutter of radius {radius} mm",
-                 .it = "un arco interno di raggio {arc} mm è troppo piccolo per una fresa di raggio {radius} mm"},
+     .message = {.en = "an inside arc of radius {arc} {unit} is too small for a cutter of radius {radius} {unit}",
+                 .it =
+                     "un arco interno di raggio {arc} {unit} è troppo piccolo per una fresa di raggio {radius} {unit}"},
      .explanation =
          {.en = "The cutter does not fit into the arc: many controls stop here, others cut into the contour on both "
                 "sides of it. Mount a smaller cutter or program a larger arc; with G39 the arc is left out, and "
@@ -2319,8 +2323,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4",
      .arguments = {"distance", "x", "y", "z", "time"},
      .title = {.en = "Near miss", .it = "Passaggio troppo vicino"},
-     .message = {.en = "{who} passes {distance} mm from {whom} at X{x} Y{y} Z{z}, {time} s after the start",
-                 .it = "{who} passa a {distance} mm da {whom} in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
+     .message = {.en = "{who} passes {distance} {unit} from {whom} at X{x} Y{y} Z{z}, {time} s after the start",
+                 .it = "{who} passa a {distance} {unit} da {whom} in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
      .explanation =
          {.en = "Nothing is hit, but what passes is nearer than the clearance of the setup (2 mm unless it says "
                 "otherwise). A fixture that stands a little off its place, or a tool that is a little longer, would be "
@@ -2336,12 +2340,13 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Warning,
      .evidence = Evidence::Stock,
      .section = "I.3.4",
-     .arguments = {"height", "x", "y", "z", "time", "volume"},
+     .arguments = {"height", "x", "y", "z", "tolerance", "volume"},
      .title = {.en = "Material left on the finished part", .it = "Materiale rimasto sul pezzo finito"},
-     .message = {.en = "material is left on the finished part: {height} mm high at X{x} Y{y} Z{z}, {volume} cm3 in "
-                       "one piece",
-                 .it = "sul pezzo finito resta materiale: alto {height} mm in X{x} Y{y} Z{z}, {volume} cm3 in un solo "
-                       "punto"},
+     .message = {.en =
+                     "material is left on the finished part: up to {height} {unit} beyond its tolerance of {tolerance} "
+                     "{unit}, at X{x} Y{y} Z{z}; {volume} cm3 beyond it in one piece",
+                 .it = "sul pezzo finito resta materiale: fino a {height} {unit} oltre la tolleranza di {tolerance} "
+                       "{unit}, in X{x} Y{y} Z{z}; {volume} cm3 oltre la tolleranza in un solo punto"},
      .explanation =
          {.en = "At the end of the program more material stands on the finished part of the setup (target) than its "
                 "tolerance allows. The finding stands at the line that has cut last near it, or at the end of the "
@@ -2362,17 +2367,18 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.3",
      .arguments = {"depth", "x", "y", "z", "time", "limit"},
      .title = {.en = "Cut deeper than the tool allows", .it = "Passata troppo profonda per l'utensile"},
-     .message = {.en = "{who} cuts {depth} mm deep at once at X{x} Y{y} Z{z}, {time} s after the start; it may go "
-                       "{limit} mm deep",
-                 .it = "{who} taglia {depth} mm in una passata in X{x} Y{y} Z{z}, {time} s dopo l'avvio; il massimo è "
-                       "{limit} mm"},
-     .causes = {{.cause = "edge-too-short",
-                 .message = {.en = "{who} is {depth} mm deep in the material at X{x} Y{y} Z{z}, {time} s after the "
-                                   "start; its edge is {limit} mm long, and the shank rubs",
-                             .it = "{who} è a {depth} mm di profondità nel materiale in X{x} Y{y} Z{z}, {time} s dopo "
-                                   "l'avvio; il tagliente è lungo {limit} mm, e il gambo striscia"},
-                 .wrong =
-                     "M06 T101004\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z30 F1000\nX400\n[!Z12!]\nG00 Z50\nM05\nM02\n"}},
+     .message =
+         {.en = "{who} cuts {depth} {unit} deep at once at X{x} Y{y} Z{z}, {time} s after the start; it may go "
+                "{limit} {unit} deep",
+          .it = "{who} taglia {depth} {unit} in una passata in X{x} Y{y} Z{z}, {time} s dopo l'avvio; il massimo è "
+                "{limit} {unit}"},
+     .causes =
+         {{.cause = "edge-too-short",
+           .message = {.en = "{who} is {depth} {unit} deep in the material at X{x} Y{y} Z{z}, {time} s after the "
+                             "start; its edge is {limit} {unit} long, and the shank rubs",
+                       .it = "{who} è a {depth} {unit} di profondità nel materiale in X{x} Y{y} Z{z}, {time} s dopo "
+                             "l'avvio; il tagliente è lungo {limit} {unit}, e il gambo striscia"},
+           .wrong = "M06 T101004\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z30 F1000\nX400\n[!Z12!]\nG00 Z50\nM05\nM02\n"}},
      .explanation =
          {.en = "machine.tools of isocnc.json says how much the tool may cut at once (maxDepth) and how long its edge "
                 "is (cutLength). Where more is cut at once the tool may break; where a wall stands beside the shank, "
@@ -2392,8 +2398,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4.2",
      .arguments = {"length"},
      .title = {.en = "Feed that cuts nothing", .it = "Lavoro che non taglia nulla"},
-     .message = {.en = "the tool goes {length} mm in feed from here without meeting material",
-                 .it = "da qui l'utensile percorre {length} mm in lavoro senza incontrare materiale"},
+     .message = {.en = "the tool goes {length} {unit} in feed from here without meeting material",
+                 .it = "da qui l'utensile percorre {length} {unit} in lavoro senza incontrare materiale"},
      .explanation =
          {.en = "Time is lost where the tool goes in feed through air: a pass that is there twice, a blank that is "
                 "smaller than the program thinks, an approach from too far. Ways of up to 50 mm are left alone. Off by "
@@ -2410,10 +2416,13 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4",
      .arguments = {"height", "x", "y", "z", "time", "volume"},
      .title = {.en = "Piece that comes free", .it = "Pezzo che si stacca"},
-     .message = {.en = "a piece of {volume} cm3 comes free here, and nothing holds it: around X{x} Y{y} Z{z}, {time} s "
-                       "after the start",
-                 .it = "qui si stacca un pezzo di {volume} cm3 che nulla trattiene: intorno a X{x} Y{y} Z{z}, {time} s "
-                       "dopo l'avvio"},
+     .message =
+         {.en =
+              "a piece of {volume} cm3 comes free here, and nothing holds it: around X{x} Y{y} Z{z}{inches}, {time} s "
+              "after the start",
+          .it =
+              "qui si stacca un pezzo di {volume} cm3 che nulla trattiene: intorno a X{x} Y{y} Z{z}{inches}, {time} s "
+              "dopo l'avvio"},
      .explanation =
          {.en = "The cut is closed, and what it has separated touches no cup, clamp or stop of the setup, nor lies on "
                 "its spoilboard: the tool may catch it and throw it. Leave tabs, hold the piece, or cut it up. A false "
@@ -2437,38 +2446,39 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                        "on is not verified",
                  .it = "la macchina simulata si ferma a questo errore, come farebbe il controllo: che cosa farebbe da "
                        "qui in poi non è verificato"},
-     .causes = {{.cause = "tool-without-shape",
-                 .message = {.en = "what {who} would hit is not verified: its shape is not known",
-                             .it = "che cosa urterebbe {who} non è verificato: la sua forma non è nota"},
-                 .wrong = "[!M06 T101002!]\nG00 X100 Y100 Z50\nM02\n"},
-                {.cause = "tool-without-length",
-                 .message = {.en = "what {who} would hit is not verified: its length is not known",
-                             .it = "che cosa urterebbe {who} non è verificato: la sua lunghezza non è nota"},
-                 .wrong = "[!M06 T101003!]\nG00 X100 Y100 Z50\nM02\n"},
-                {.cause = "undecided",
-                 .message = {.en = "whether this motion hits anything could not be decided",
-                             .it = "non è stato possibile decidere se questo movimento urta qualcosa"},
-                 .wrong = "M06 T101001\n[!G00 X2000000!]\nM02\n"},
-                {.cause = "resolution-too-fine",
-                 .message = {.en = "the material is not verified: at the resolution of the setup it takes more memory "
-                                   "than there is for it; {spacing} mm would fit",
-                             .it = "il materiale non è verificato: con la risoluzione dell'attrezzaggio occupa più "
-                                   "memoria di quella prevista; con {spacing} mm ci sta"},
-                 .wrong = ""},
-                {.cause = "other-paths",
-                 .message = {.en = "where this jump leads with other values of VGPL is not verified (paths that were "
-                                   "run: {paths})",
-                             .it = "dove porta questo salto con altri valori di VGPL non è verificato (percorsi "
-                                   "eseguiti: {paths})"},
-                 .wrong = "IF VGPL = 1 GOTO N90\nIF VGPL = 2 GOTO N90\nIF VGPL = 3 GOTO N90\nIF VGPL = 4 GOTO N90\n"
-                          "IF VGPL = 5 GOTO N90\nIF VGPL = 6 GOTO N90\nIF VGPL = 7 GOTO N90\n"
-                          "[!IF VGPL = 8 GOTO N90!]\nG04 P1\nN90 M02\n"},
-                {.cause = "other-registers",
-                 .message = {.en = "where this jump leads with other values of {who} is not verified: the program does "
-                                   "not set {who} before",
-                             .it = "dove porta questo salto con altri valori di {who} non è verificato: il programma "
-                                   "non assegna prima {who}"},
-                 .wrong = "[!IF V3 = 1 GOTO N90!]\nG04 P1\nN90 M02\n"}},
+     .causes =
+         {{.cause = "tool-without-shape",
+           .message = {.en = "what {who} would hit is not verified: its shape is not known",
+                       .it = "che cosa urterebbe {who} non è verificato: la sua forma non è nota"},
+           .wrong = "[!M06 T101002!]\nG00 X100 Y100 Z50\nM02\n"},
+          {.cause = "tool-without-length",
+           .message = {.en = "what {who} would hit is not verified: its length is not known",
+                       .it = "che cosa urterebbe {who} non è verificato: la sua lunghezza non è nota"},
+           .wrong = "[!M06 T101003!]\nG00 X100 Y100 Z50\nM02\n"},
+          {.cause = "undecided",
+           .message = {.en = "whether this motion hits anything could not be decided",
+                       .it = "non è stato possibile decidere se questo movimento urta qualcosa"},
+           .wrong = "M06 T101001\n[!G00 X2000000!]\nM02\n"},
+          {.cause = "resolution-too-fine",
+           .message = {.en = "the material is not verified: at the resolution that is asked for it takes more memory "
+                             "than there is for it; {spacing} mm would fit",
+                       .it = "il materiale non è verificato: con la risoluzione richiesta occupa più "
+                             "memoria di quella prevista; con {spacing} mm ci sta"},
+           .wrong = ""},
+          {.cause = "other-paths",
+           .message = {.en = "where this jump leads with other values of VGPL is not verified (paths that were "
+                             "run: {paths})",
+                       .it = "dove porta questo salto con altri valori di VGPL non è verificato (percorsi "
+                             "eseguiti: {paths})"},
+           .wrong = "IF VGPL = 1 GOTO N90\nIF VGPL = 2 GOTO N90\nIF VGPL = 3 GOTO N90\nIF VGPL = 4 GOTO N90\n"
+                    "IF VGPL = 5 GOTO N90\nIF VGPL = 6 GOTO N90\nIF VGPL = 7 GOTO N90\n"
+                    "[!IF VGPL = 8 GOTO N90!]\nG04 P1\nN90 M02\n"},
+          {.cause = "other-registers",
+           .message = {.en = "where this jump leads with other values of {who} is not verified: the program does "
+                             "not set {who} before",
+                       .it = "dove porta questo salto con altri valori di {who} non è verificato: il programma "
+                             "non assegna prima {who}"},
+           .wrong = "[!IF V3 = 1 GOTO N90!]\nG04 P1\nN90 M02\n"}},
      .explanation =
          {.en = "The machine was asked (--verify), and could not follow or compare everything: mistakes that only a "
                 "run shows, such as a joint outside its travel or a clamp that is hit, may go unreported from this "

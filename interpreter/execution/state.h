@@ -100,7 +100,7 @@ struct State {
   bool five_axis() const { return mode(dialect::ModalGroup::Interpolation) == dialect::kFiveAxis; }
   bool inverse_time() const { return mode(dialect::ModalGroup::FeedMode) == dialect::kInverseTime; }
   bool in_inches() const { return mode(dialect::ModalGroup::Units) == dialect::kInches; }
-  double mm_per_unit() const { return in_inches() ? 25.4 : 1.0; }
+  double mm_per_unit() const { return dialect::mm_per_unit(in_inches()); }
   /// Whether M03 or M04 is in force.
   bool spindle_turns() const { return spindle == Spindle::Clockwise || spindle == Spindle::Counterclockwise; }
 

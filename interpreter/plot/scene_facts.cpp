@@ -157,11 +157,11 @@ OrderedJson stock_facts(const StockRecording& cuts, const verification::Material
                       {"blankVolume", material.blank_volume},
                       {"resolution", material.stock.spacing()},
                       {"removed", OrderedJson::array()}};
-  for (const removal::RemovedByLine& each : material.by_line)
+  for (const simulation::RemovedOnLine& each : material.by_line)
     json["removed"].push_back({{"line", each.line},
-                               {"volume", rounded(each.removed.volume)},
-                               {"depth", rounded(each.removed.depth)},
-                               {"width", rounded(each.removed.width)}});
+                               {"volume", rounded(each.volume)},
+                               {"depth", rounded(each.depth)},
+                               {"width", rounded(each.width)}});
   return json;
 }
 

@@ -35,13 +35,15 @@ struct Incident {
   execution::ToolCode tool;  ///< All 0: none is mounted.
   /// The greatest length of material that is met along the tool's axis, mm. NearMaterial: the smallest distance.
   /// EdgeTooShort and CutTooDeep: the depth of the cut. CutsNothing: the length of the way. MaterialLeft: the greatest
-  /// height of what is left. LoosePiece: the height of the piece.
+  /// height of what is left beyond the tolerance. LoosePiece: the height of the piece.
   double amount = 0;
-  std::optional<double> volume;                   ///< MaterialLeft, LoosePiece: mm^3.
-  double level = 0;                               ///< The lowest Z of the tip there, in that frame; mm.
-  double limit = 0;                               ///< EdgeTooShort, CutTooDeep: the depth that the tool allows, mm.
+  std::optional<double> volume;  ///< MaterialLeft, LoosePiece: mm^3.
+  double level = 0;              ///< The lowest Z of the tip there, in that frame; mm.
+  /// EdgeTooShort, CutTooDeep: the depth that the tool allows. MaterialLeft: the tolerance. mm.
+  double limit = 0;
   geometry::Vec3 point = geometry::Vec3::Zero();  ///< Where it is worst; machine frame of the program, mm.
   geometry::Frame frame;                          ///< In force there; in the machine frame.
+  bool is_in_inches = false;                      ///< G70 is in force there.
   /// The Z, in that frame, with which nothing would have been met, mm; none where another Z is no help.
   std::optional<double> enough;
   /// RapidInMaterial: a shank, holder or nose was there already when the rapid began, so that all of this goes with it.
@@ -66,13 +68,6 @@ struct Removed {
     width = counts_alone ? other.width : std::max(width, other.width);
     is_at_rim = other.is_at_rim;
   }
-};
-
-/// What the motions of a line have removed.
-struct RemovedByLine {
-  std::size_t line = 0;  ///< From 0.
-  double end_time = 0;   ///< When it was done, seconds.
-  Removed removed;
 };
 
 /// What a tool has removed, and how long it was at it.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpreter/kinematics/numbers.h"
 #include "interpreter/removal/left_material.h"
 #include "interpreter/removal/loose_pieces.h"
 #include "interpreter/simulation/spindle_turn.h"
@@ -22,6 +23,8 @@ using stock::SweepPurpose;
 static constexpr std::size_t kBatch = 16'384;
 /// Incidents that are kept.
 static constexpr std::size_t kMaxIncidents = 10'000;
+/// Ways on which nothing may be cut, of which the rest is removed later, at most.
+static constexpr std::size_t kMostPassed = 256;
 /// What is cut of a wall counts as a pass of its depth if it is wider than this part of the cutter's radius: what a
 /// finishing pass takes off a stepped wall does not.
 static constexpr double kRimShare = 0.1;
@@ -49,22 +52,31 @@ MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine
       workers_(std::move(workers)),
       stock_(workpiece_.blank, workpiece_.spacing, workpiece_.window),
       blank_volume_(stock_.volume()),
-      skin_(skin_of(stock_.spacing(), machine)) {}
+      skin_(skin_of(stock_.spacing(), machine)),
+      greatest_skin_(skin_) {}
 
-void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& tool, std::size_t line, double time,
-                          const geometry::Frame& frame) {
+void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& tool, const running::Event& event,
+                          double time, const geometry::Frame& frame) {
   cut_waiting();
   close_all();
   if (!by_line_.empty()) look_for_loose_pieces();
   code_ = code;
   tool_.reset();
   // A wall of a cut is known to within a spacing.
-  forms_.emplace(tool, skin_, stock_.spacing(), workpiece_.clearance);
-  stand(line, time, frame);
+  form(tool);
+  stand(event, time, frame);
+}
+
+/// Makes the bodies of the mounted tool, while nothing waits.
+void MaterialCheck::form(const CuttingTool& tool) {
+  const CutSkin skin{skin_, has_turned_ ? machine_.motion.corner_tolerance_deg * kinematics::kRadians : 0};
+  // A wall of a cut is known to within a spacing.
+  forms_.emplace(tool, skin, stock_.spacing(), workpiece_.clearance);
+  greatest_skin_ = std::max(greatest_skin_, forms_->greatest_skin());
 }
 
 /// Compares the mounted tool where it stands.
-void MaterialCheck::stand(std::size_t line, double time, const geometry::Frame& frame) {
+void MaterialCheck::stand(const running::Event& event, double time, const geometry::Frame& frame) {
   // Without its length, nothing on the spindle is at its place.
   const double length = forms_->tool().length;
   if (!last_path_ || !(length > 0)) return;
@@ -77,7 +89,8 @@ void MaterialCheck::stand(std::size_t line, double time, const geometry::Frame& 
   const solids::AxisPlacement at = placement_of(kinematics, kinematics::forward(kinematics, joints, length));
   last_frame_ = frame;
   frames_ = {frame};  // Nothing waits.
-  waiting_.push_back({.stretch = rest, .line = line, .frame = 0, .is_standing = true});
+  waiting_.push_back(
+      {.stretch = rest, .line = event.line, .frame = 0, .is_in_inches = event.is_in_inches, .is_standing = true});
   pieces_ = {{stock::StraightPath{at, at.origin}, 0, 0}};
   append_pieces(false);
 }
@@ -87,6 +100,7 @@ void MaterialCheck::take(const simulation::TimedEvent& event) {
     spindle_speed_ = speed->speed;
   const auto before = spindle_;
   last_line_ = event.event.line;
+  is_in_inches_ = event.event.is_in_inches;
   last_time_ = event.start + event.duration;
   spindle_ = simulation::spindle_after(event.event, spindle_, spindle_speed_);
   if (before.function != 5 && spindle_.function == 5) spindle_stopped_by_ = event.event.line;
@@ -102,10 +116,19 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::
   last_path_ = stretch.path;
   last_place_ = to;
   if (!forms_ || !event.move) return;
+  if (!has_turned_ && turns_axis(machine_.motion.kinematics, stretch.path)) {
+    cut_waiting();
+    has_turned_ = true;
+    form(CuttingTool(forms_->tool()));
+  }
   const bool is_feed = event.move->feed.kind != kinematics::FeedKind::Rapid;
   last_frame_ = frame;
   if (frames_.empty() || !(frames_.back() == frame)) frames_.push_back(frame);
-  waiting_.push_back({.stretch = stretch, .line = event.event.line, .frame = frames_.size() - 1, .is_feed = is_feed});
+  waiting_.push_back({.stretch = stretch,
+                      .line = event.event.line,
+                      .frame = frames_.size() - 1,
+                      .is_in_inches = event.event.is_in_inches,
+                      .is_feed = is_feed});
   divide(stretch, from, to);
   if (watcher_) show_moments(stretch);
   append_pieces(is_feed);
@@ -171,7 +194,7 @@ void MaterialCheck::show_moments(const motion::Stretch& stretch) {
     if (moment > stretch.start && forms_->cutter()) {
       divide(stretch, stretch.phases[0].from, stretch.parameter_at(moment));
       for (const TipPath& piece : pieces_) {
-        const Sweep sweep{.body = forms_->cutter(),
+        const Sweep sweep{.body = removing_cutter(cutting_of(last.is_feed)),
                           .path = moved(piece.path, -workpiece_.origin),
                           .tag = static_cast<stock::CutTag>(last.line)};
         if (may_meet(*sweep.body, sweep.path)) is_cut = partial.apply({&sweep, 1}).front().meets() || is_cut;
@@ -190,14 +213,39 @@ void MaterialCheck::show_moments(const motion::Stretch& stretch) {
   pieces_ = pieces;
 }
 
-void MaterialCheck::append_sweeps(const TipPath& piece, bool is_feed) {
-  if (!asks_) return append_sweep(forms_->cutter(), piece, Role::Cut);
-  if (!is_feed) {
-    append_sweep(forms_->passing_cutter(), piece, Role::RapidCutter);
-  } else if (spindle_.function == 5) {
-    append_sweep(forms_->passing_cutter(), piece, Role::StandingCutter);
+/// Whether the cutter may cut on a motion.
+MaterialCheck::Cutting MaterialCheck::cutting_of(bool is_feed) const {
+  if (!is_feed) return Cutting::InRapid;
+  return spindle_.function == 5 ? Cutting::Standing : Cutting::Allowed;
+}
+
+/// What removes material. Where the cutter must not cut, no more than is asked for: else it would clear its own way,
+/// and of many short motions through material none would meet any.
+const RevolvedBody* MaterialCheck::removing_cutter(Cutting cutting) const {
+  const bool is_thinner = cutting != Cutting::Allowed && forms_->passing_cutter();
+  return is_thinner ? forms_->passing_cutter() : forms_->cutter();
+}
+
+/// Removes the rest of what the cutter has gone through on the motions before, once they are over.
+void MaterialCheck::append_rest() {
+  for (PassedPath& each : passed_) {
+    sweeps_.push_back({.body = forms_->cutter(), .path = std::move(each.path), .tag = each.tag});
+    uses_.push_back({static_cast<std::uint32_t>(waiting_.size() - 1), Role::Rest, 0, 0});
   }
-  append_sweep(forms_->cutter(), piece, Role::Cut);
+  passed_.clear();
+}
+
+void MaterialCheck::append_sweeps(const TipPath& piece, bool is_feed) {
+  const Cutting cutting = cutting_of(is_feed);
+  if (cutting != cutting_ || passed_.size() >= kMostPassed) append_rest();
+  cutting_ = cutting;
+  const RevolvedBody* const cutter = removing_cutter(cutting);
+  if (cutter && cutter != forms_->cutter() && may_meet(*cutter, piece.path))
+    passed_.push_back({piece.path, static_cast<stock::CutTag>(waiting_.back().line)});
+  if (!asks_) return append_sweep(cutter, piece, Role::Cut);
+  if (cutting == Cutting::InRapid) append_sweep(forms_->passing_cutter(), piece, Role::RapidCutter);
+  if (cutting == Cutting::Standing) append_sweep(forms_->passing_cutter(), piece, Role::StandingCutter);
+  append_sweep(cutter, piece, Role::Cut);
   append_sweep(forms_->shank(), piece, Role::Shank);
   append_sweep(forms_->shank_with_wall(), piece, Role::ShankWall);
   append_sweep(forms_->holder(), piece, Role::Holder);
@@ -281,7 +329,7 @@ void MaterialCheck::cut_waiting() {
     const Stock before = stock_;
     const std::vector<SweepOutcome> outcomes = stock_.apply(sweeps_, workers_);
     for (std::size_t i = 0; i < sweeps_.size(); ++i) {
-      if (uses_[i].role == Role::Cut) account(i, outcomes[i]);
+      if (uses_[i].role == Role::Cut || uses_[i].role == Role::Rest) account(i, outcomes[i]);
       if (uses_[i].role == Role::Cut && outcomes[i].meets()) has_cut[uses_[i].stretch] = true;
       if (outcomes[i].meets()) look_at(i, outcomes[i]);
     }
@@ -347,7 +395,9 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
   if (!outcome.meets()) return;
   const SweepUse& use = uses_[sweep];
   const UncutStretch& stretch = waiting_[use.stretch];
-  const Removed removed = removed_by(outcome, sweeps_[sweep].path, 2 * sweeps_[sweep].body->maximum_radius());
+  const Removed removed = use.role == Role::Rest
+                              ? Removed{.volume = outcome.volume}
+                              : removed_by(outcome, sweeps_[sweep].path, 2 * sweeps_[sweep].body->maximum_radius());
   if (!tool_) {
     const auto known =
         std::find_if(by_tool_.begin(), by_tool_.end(), [&](const RemovedByTool& each) { return each.tool == code_; });
@@ -357,6 +407,7 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
   if (notes_stretches_) by_stretch_[by_stretch_.size() - waiting_.size() + use.stretch].add(removed);
   RemovedByTool& tool = by_tool_[*tool_];
   tool.removed.add(removed);
+  if (use.role == Role::Rest) return;
   const motion::Stretch& motion = stretch.stretch;
   const double end_time = motion.time_at(use.to);
   tool.seconds += end_time - motion.time_at(use.from);
@@ -374,6 +425,8 @@ void MaterialCheck::look_at(std::size_t sweep, const SweepOutcome& outcome) {
         inside.point = outcome.inside_point;
         touch({IncidentKind::CutTooDeep, ToolPart::Cutter}, sweep, inside);
       }
+      break;
+    case Role::Rest:
       break;
     case Role::RapidCutter:
       return touch({IncidentKind::RapidInMaterial, ToolPart::Cutter}, sweep, outcome);
@@ -401,7 +454,7 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   const auto [known, is_new] = open_.try_emplace(key);
   OpenIncident& episode = known->second;
   // A short motion may meet no dexel.
-  const double shortest = key.first == IncidentKind::CutTooDeep ? 2 * stock_.spacing() : 0;
+  const double shortest = 2 * stock_.spacing();
   const bool goes_on = !is_new && (number <= episode.last_stretch + 1 || stretch.way < episode.last_way + shortest);
   if (!is_new && !goes_on) close(episode);
   if (!goes_on) {
@@ -428,6 +481,7 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   incident.amount = outcome.depth;
   incident.point = in_machine(outcome.point);
   incident.frame = frames_[stretch.frame];
+  incident.is_in_inches = stretch.is_in_inches;
   episode.deepest_sweep = sweep;
 }
 
@@ -439,7 +493,12 @@ void MaterialCheck::note_ways(const std::vector<bool>& has_cut) {
       end_way();
       continue;
     }
-    if (!way_) way_ = {.kind = IncidentKind::CutsNothing, .line = each.line, .time = each.stretch.start, .tool = code_};
+    if (!way_)
+      way_ = {.kind = IncidentKind::CutsNothing,
+              .line = each.line,
+              .time = each.stretch.start,
+              .tool = code_,
+              .is_in_inches = each.is_in_inches};
     way_->end_line = each.line;
     way_->end_time = each.stretch.start + each.stretch.duration;
     way_->amount += each.length;
@@ -643,14 +702,18 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   incident.level = lowest + up.dot(workpiece_.origin - incident.frame.origin);
   const bool is_hit = incident.kind == IncidentKind::RapidInMaterial || incident.kind == IncidentKind::BodyInMaterial;
   if (!is_hit) return;
-  const std::optional<double> rise = enough_rise(before, *sweeps_[index].body, path, up);
+  // Of rapids, in what the first of them has found: they have cut since.
+  const bool is_of_rapids = incident.kind == IncidentKind::RapidInMaterial && episode.before;
+  const Stock& found = is_of_rapids ? *episode.before : before;
+  const std::optional<double> rise = enough_rise(found, *sweeps_[index].body, path, up);
   incident.enough.reset();
   if (!rise) return;
   // The dexels do not measure along a tool that lies, and the material ends up to half a spacing beside them.
   const double aside = stock_.spacing() / 2 * (1 - std::abs(up.z()));
-  if (is_lying(up)) incident.amount = *rise + skin_ + aside;
+  const double skin = forms_->skin(incident.part);
+  if (is_lying(up)) incident.amount = *rise + skin + aside;
   if (!episode.begins_in_feed && !does_height_help(waiting_[use.stretch])) return;
-  incident.enough = std::ceil((incident.level + *rise + skin_ + aside - 0.01) * 10) / 10 + 0.0;  // No -0.
+  incident.enough = std::ceil((incident.level + *rise + skin + aside - 0.01) * 10) / 10 + 0.0;  // No -0.
 }
 
 void MaterialCheck::close(OpenIncident& episode) {
@@ -728,8 +791,10 @@ void MaterialCheck::compare_with_target() {
           .tool = code_,
           .amount = region.height,
           .volume = region.volume,
+          .limit = workpiece_.tolerance,
           .point = in_machine(region.point),
-          .frame = last_frame_});
+          .frame = last_frame_,
+          .is_in_inches = is_in_inches_});
   }
 }
 
@@ -745,9 +810,10 @@ void MaterialCheck::look_for_loose_pieces() {
                       .amount = piece.bounds.sizes().z(),
                       .volume = piece.volume,
                       .point = in_machine(piece.bounds.center()),
-                      .frame = last_frame_};
+                      .frame = last_frame_,
+                      .is_in_inches = is_in_inches_};
     const auto cut = std::partition_point(by_line_.begin(), by_line_.end(),
-                                          [&](const RemovedByLine& each) { return each.line < incident.line; });
+                                          [&](const LineWork& each) { return each.line < incident.line; });
     if (cut != by_line_.end() && cut->line == incident.line) incident.time = cut->end_time;
     incident.end_line = incident.line;
     incident.end_time = incident.time;
@@ -762,6 +828,13 @@ void MaterialCheck::forget_past() {
   by_line_.clear();
   by_stretch_.clear();
   notes_stretches_ = true;
+}
+
+std::vector<simulation::RemovedOnLine> MaterialCheck::removed_by_line() const {
+  std::vector<simulation::RemovedOnLine> lines;
+  for (const auto& [line, end_time, removed] : by_line_)
+    lines.push_back({line, removed.volume, removed.depth, removed.width});
+  return lines;
 }
 
 std::vector<Incident> MaterialCheck::incidents_so_far() const {

@@ -10,6 +10,7 @@
 #include "interpreter/removal/incident.h"
 #include "interpreter/removal/tip_paths.h"
 #include "interpreter/removal/tool_forms.h"
+#include "interpreter/simulation/run_findings.h"
 #include "interpreter/simulation/timing.h"
 #include "interpreter/stock/stock.h"
 
@@ -29,9 +30,9 @@ class MaterialCheck {
   /// From now on, `watcher` sees the stock, also within motions. What is found stays the same.
   void watch(Watcher watcher) { watcher_ = std::move(watcher); }
 
-  /// Another tool is mounted, by a line, at a time, s, with a frame in force. What it is in where it is mounted is
+  /// Another tool is mounted, by an event, at a time, s, with a frame in force. What it is in where it is mounted is
   /// found there.
-  void mount(const execution::ToolCode& code, const CuttingTool& tool, std::size_t line, double time,
+  void mount(const execution::ToolCode& code, const CuttingTool& tool, const running::Event& event, double time,
              const geometry::Frame& frame);
   /// Takes a stretch of motion, with its event and the frame in force.
   void take(const motion::Stretch& stretch, const simulation::TimedEvent& event, const geometry::Frame& frame);
@@ -66,10 +67,11 @@ class MaterialCheck {
   /// After finish(), in the order of their first use.
   const std::vector<RemovedByTool>& removed_by_tool() const { return by_tool_; }
   /// After finish(): lines that removed something, in the order of the run.
-  const std::vector<RemovedByLine>& removed_by_line() const { return by_line_; }
+  std::vector<simulation::RemovedOnLine> removed_by_line() const;
   const stock::Stock& stock() const { return stock_; }  ///< In the frame of the setup.
-  /// How much thinner bodies count than they are, all around, mm: what a cut may leave of what its program says.
-  double skin() const { return skin_; }
+  /// How much thinner bodies count than they are, all around, mm, at most: what a cut may leave of what its program
+  /// says. Of the tools that have been mounted.
+  double skin() const { return greatest_skin_; }
   double blank_volume() const { return blank_volume_; }
   const Workpiece& workpiece() const { return workpiece_; }
 
@@ -77,6 +79,7 @@ class MaterialCheck {
   /// What a sweep is for.
   enum class Role : std::uint8_t {
     Cut,
+    Rest,  ///< Of what has been passed through where nothing may be cut.
     RapidCutter,
     StandingCutter,
     Shank,
@@ -87,11 +90,21 @@ class MaterialCheck {
     NoseNear
   };
 
+  /// Whether the cutter may cut.
+  enum class Cutting : std::uint8_t { Allowed, InRapid, Standing };
+
+  /// A way on which it may not.
+  struct PassedPath {
+    stock::SweepPath path;
+    stock::CutTag tag = 0;
+  };
+
   /// A stretch that waits for being cut.
   struct UncutStretch {
     motion::Stretch stretch;
     std::size_t line = 0;
     std::size_t frame = 0;  ///< Index of the frame in force.
+    bool is_in_inches = false;
     bool is_feed = false;
     bool is_standing = false;  ///< A tool where it is mounted.
     double length = 0;         ///< Of the tip's path, mm.
@@ -108,6 +121,13 @@ class MaterialCheck {
     double to = 0;
   };
 
+  /// What the motions of a line have removed.
+  struct LineWork {
+    std::size_t line = 0;
+    double end_time = 0;  ///< When it was done, seconds.
+    Removed removed;
+  };
+
   /// An incident that may go on.
   struct OpenIncident {
     Incident incident;
@@ -121,10 +141,14 @@ class MaterialCheck {
   };
   using IncidentKey = std::pair<IncidentKind, ToolPart>;
 
-  void stand(std::size_t line, double time, const geometry::Frame& frame);
+  void form(const CuttingTool& tool);
+  void stand(const running::Event& event, double time, const geometry::Frame& frame);
   void append_pieces(bool is_feed);
   double end_rim(const TipPath& piece) const;
   void show_moments(const motion::Stretch& stretch);
+  Cutting cutting_of(bool is_feed) const;
+  const solids::RevolvedBody* removing_cutter(Cutting cutting) const;
+  void append_rest();
   void append_sweeps(const TipPath& piece, bool is_feed);
   void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role);
   bool may_meet(const solids::RevolvedBody& body, const stock::SweepPath& path, double margin = 0) const;
@@ -155,7 +179,9 @@ class MaterialCheck {
   stock::Workers workers_;
   stock::Stock stock_;
   double blank_volume_ = 0;
-  double skin_;
+  double skin_;              ///< Of the path alone.
+  double greatest_skin_;     ///< Of the bodies that have been mounted.
+  bool has_turned_ = false;  ///< B or C has moved, so that the axis may have strayed at a corner.
   execution::ToolCode code_;
   std::optional<ToolForms> forms_;
   std::optional<std::size_t> tool_;  ///< Index into by_tool_, once the mounted tool has removed something.
@@ -164,6 +190,7 @@ class MaterialCheck {
   std::optional<std::size_t> spindle_stopped_by_;
   std::size_t last_line_ = 0;  ///< Of the events.
   double last_time_ = 0;
+  bool is_in_inches_ = false;  ///< At that line.
   geometry::Frame last_frame_;
   std::optional<kinematics::Path> last_path_;  ///< Of the last stretch.
   double last_place_ = 0;                      ///< Path parameter to which it has come.
@@ -172,9 +199,11 @@ class MaterialCheck {
   std::vector<UncutStretch> waiting_;
   std::vector<stock::Sweep> sweeps_;
   std::vector<SweepUse> uses_;
-  std::vector<TipPath> pieces_;  ///< Kept, so that its memory is.
-  double way_taken_ = 0;         ///< Of the tip, mm.
-  std::size_t cut_ = 0;          ///< Stretches that have been cut.
+  Cutting cutting_ = Cutting::Allowed;  ///< On the last motion.
+  std::vector<PassedPath> passed_;      ///< Since it has been allowed, or not for this reason.
+  std::vector<TipPath> pieces_;         ///< Kept, so that its memory is.
+  double way_taken_ = 0;                ///< Of the tip, mm.
+  std::size_t cut_ = 0;                 ///< Stretches that have been cut.
   std::map<IncidentKey, OpenIncident> open_;
   std::vector<OpenIncident> closed_;  ///< Of the present batch.
   /// Incidents are looked at closely up to this number: each takes some thousand sweeps.
@@ -187,7 +216,7 @@ class MaterialCheck {
   double next_moment_ = 0;
   bool has_cuts_to_show_ = false;
   std::vector<RemovedByTool> by_tool_;
-  std::vector<RemovedByLine> by_line_;
+  std::vector<LineWork> by_line_;
   bool asks_ = true;
   bool notes_stretches_ = false;
   std::vector<Removed> by_stretch_;

@@ -21,6 +21,12 @@ static constexpr double kMaxPieces = 20'000;
 /// An axis turns by less than half a turn in one piece, radians.
 static constexpr double kMaxTurn = 1;
 
+bool turns_axis(const Kinematics& kinematics, const Path& path) {
+  return kinematics.kind != MachineKind::ThreeAxis &&
+         std::any_of(path.c.begin() + 1, path.c.end(),
+                     [](const kinematics::Coordinates& c) { return c[kinematics::kB] != 0 || c[kinematics::kC] != 0; });
+}
+
 namespace {
 
 /// The path of the tip as a function of the path parameter, with bounds of how much it bends.
@@ -28,10 +34,7 @@ class TipCourse {
  public:
   TipCourse(const Kinematics& kinematics, const Path& path, double from, double to)
       : kinematics_(kinematics), path_(path), from_(from), to_(to) {
-    turns_ = kinematics.kind != MachineKind::ThreeAxis &&
-             std::any_of(path.c.begin() + 1, path.c.end(), [](const kinematics::Coordinates& c) {
-               return c[kinematics::kB] != 0 || c[kinematics::kC] != 0;
-             });
+    turns_ = turns_axis(kinematics, path);
   }
 
   bool turns() const { return turns_; }

@@ -15,6 +15,9 @@ struct TipPath {
   double to = 0;    ///< Path parameter at its end.
 };
 
+/// Whether B or C moves on a path, of a machine that has them.
+bool turns_axis(const kinematics::Kinematics& kinematics, const kinematics::Path& path);
+
 /// Appends the path of the tip for path parameters from `from` to `to`. Lines, arcs and helices are exact while B and C
 /// rest. Other paths are divided, so that no point of the tool up to `reach` mm above the tip strays from its own path
 /// by more than `tolerance` mm.

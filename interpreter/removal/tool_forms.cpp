@@ -22,18 +22,24 @@ static RevolvedBody widened(const RevolvedBody& body, double distance) {
   return RevolvedBody(std::move(pieces));
 }
 
-ToolForms::ToolForms(const CuttingTool& tool, double skin, double wall, double clearance) : tool_(tool) {
-  const auto reduced = [&](const RevolvedBody* body) { return body ? body->reduced(skin) : Body(); };
+ToolForms::ToolForms(const CuttingTool& tool, const CutSkin& skin, double wall, double clearance) : tool_(tool) {
+  const auto reduced = [&](const RevolvedBody* body, ToolPart part) {
+    if (!body) return Body();
+    double& of_part = skins_[static_cast<std::size_t>(part)];
+    of_part = skin.of_path;
+    if (part == ToolPart::Cutter || part == ToolPart::Shank) of_part += skin.of_turn * body->reach(0);
+    return body->reduced(of_part);
+  };
   const auto with_clearance = [&](const RevolvedBody* body) {
     return body && clearance > 0 ? Body(grown(*body, clearance)) : Body();
   };
-  passing_cutter_ = reduced(tool.cutter);
-  shank_ = reduced(tool.shank);
-  holder_ = reduced(tool.holder);
-  nose_ = reduced(tool.nose);
+  passing_cutter_ = reduced(tool.cutter, ToolPart::Cutter);
+  shank_ = reduced(tool.shank, ToolPart::Shank);
+  holder_ = reduced(tool.holder, ToolPart::Holder);
+  nose_ = reduced(tool.nose, ToolPart::Nose);
   holder_with_clearance_ = with_clearance(tool.holder);
   nose_with_clearance_ = with_clearance(tool.nose);
-  if (tool.shank && tool.cutter && tool.shank->maximum_radius() >= tool.cutter->maximum_radius() - skin)
+  if (tool.shank && tool.cutter && tool.shank->maximum_radius() >= tool.cutter->maximum_radius() - skin.of_path)
     shank_with_wall_ = widened(*tool.shank, wall);
   for (const RevolvedBody* body : {tool.cutter, tool.shank, tool.holder})
     if (body) reach_ = std::max(reach_, body->reach(0));

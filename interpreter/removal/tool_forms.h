@@ -1,17 +1,32 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "interpreter/removal/workpiece.h"
 
 namespace isocnc::removal {
 
-/// The bodies of a tool as they are compared with the material. What is cut by pieces of a path, or by a body with a
-/// rounded rim, leaves a skin of up to `skin` mm where a later motion along the same wall only passes: so what must not
-/// meet material counts without its outermost `skin`.
+/// What a cut may leave of what its program says, where a later motion along the same wall only passes: so what must
+/// not meet material counts without that much of its outside.
+struct CutSkin {
+  double of_path = 0;  ///< By pieces of a path, by a rounded rim and at rounded corners, mm.
+  /// At a corner where B or C turns, radians: the more the farther from the tip. Of cutter and shank, which go along
+  /// what they have cut; nobody leads a holder along it.
+  double of_turn = 0;
+};
+
+/// The bodies of a tool as they are compared with the material.
 class ToolForms {
  public:
-  ToolForms(const CuttingTool& tool, double skin, double wall, double clearance);
+  ToolForms(const CuttingTool& tool, const CutSkin& skin, double wall, double clearance);
+
+  /// How much thinner a part counts than it is, all around, mm; 0 for one that is not there.
+  double skin(ToolPart part) const { return skins_[static_cast<std::size_t>(part)]; }
+  /// The greatest of these.
+  double greatest_skin() const { return *std::max_element(skins_.begin(), skins_.end()); }
 
   const CuttingTool& tool() const { return tool_; }
   const solids::RevolvedBody* cutter() const { return tool_.cutter; }
@@ -35,6 +50,7 @@ class ToolForms {
   static const solids::RevolvedBody* pointer(const Body& body) { return body ? &*body : nullptr; }
 
   CuttingTool tool_;
+  std::array<double, 4> skins_{};  ///< By ToolPart.
   Body passing_cutter_;
   Body shank_;
   Body shank_with_wall_;

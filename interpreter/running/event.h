@@ -70,6 +70,7 @@ struct Event {
   std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent, SignalEvent,
                ExactStopEvent, EndEvent>
       what;
+  bool is_in_inches = false;  ///< G70 is in force at its block: what is said to people about it is in inches.
 };
 
 /// Name of the event's kind in traces: `rapid`, `feed`, `arc`, `dwell`, `spindle`, `tool`, `m`, `frame`, `jump`,

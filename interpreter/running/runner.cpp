@@ -21,7 +21,12 @@ namespace {
 class BlockSink final : public execution::Sink {
  public:
   BlockSink(std::size_t line, std::vector<Event>& events, RunResult& result)
-      : Sink(true), is_tool_unused(result.is_tool_unused), line_(line), events_(events), registers_(result.registers) {}
+      : Sink(true),
+        is_tool_unused(result.is_tool_unused),
+        line_(line),
+        events_(events),
+        registers_(result.registers),
+        state_(result.state) {}
 
   std::optional<syntax::Finding> error;
   bool is_tool_unused;                        ///< After the block.
@@ -61,11 +66,13 @@ class BlockSink final : public execution::Sink {
     Event& event = events_.emplace_back();  // Filled in place: a motion is large.
     event.line = line_;
     event.what = std::move(what);
+    event.is_in_inches = state_.in_inches();
   }
 
   std::size_t line_;
   std::vector<Event>& events_;
   Registers& registers_;
+  const execution::State& state_;  ///< As far as the block has been executed.
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ using geometry::Vec3;
 
 static constexpr double kNowhere = 1e-9;                // mm
 static constexpr std::size_t kMaxEventsBetween = 1000;  // Events between two elements; a control allows some tens.
-static constexpr std::size_t kLinesKept =
+static constexpr std::size_t kBlocksKept =
     2 * (geometry::ContourOffset::kLookBack + geometry::ContourOffset::kLookAhead);
 
 Vec3 Compensation::ContourPlane::point(const Vec2& flat, double height) const {
@@ -57,7 +57,9 @@ void Compensation::take(const running::Event& event, const Listeners& listeners)
   const bool is_wanted = radius_ > 0 && move->compensation.side != 0;
   if (is_wanted && move->compensation.plane_is_sound && !turns(*move)) return follow(event, *move, listeners);
   end_contour(listeners);
-  if (is_wanted) listeners.warning({.line = event.line, .id = "compensation-not-applied"_diag});
+  if (is_wanted) {
+    listeners.warning({.line = event.line, .id = "compensation-not-applied"_diag, .is_in_inches = event.is_in_inches});
+  }
   if (!is_beside_) return listeners.event(event);
   come_back(event, *move, listeners);
 }
@@ -84,7 +86,7 @@ void Compensation::follow(const running::Event& event, const running::MoveEvent&
   if (begins) begin_contour(move);
   if (plane_.is_upright(move)) return begins ? go_beside(event, listeners) : wait(event, listeners);
   geometry::ContourElement element{.curve = {.start = plane_.flat(move.from.tip), .end = plane_.flat(move.to.tip)},
-                                   .tag = count(event.line),
+                                   .tag = count(event),
                                    .side = move.compensation.side,
                                    .reduces = move.compensation.reduces,
                                    .cuts = move.kind != MoveKind::Rapid};
@@ -142,8 +144,8 @@ void Compensation::come_back(const running::Event& event, const running::MoveEve
     straight.inverse_time = false;
   }
   if (move.kind != MoveKind::Rapid)
-    contour_.lead_out({.start = plane_.flat(tip_.tip), .end = plane_.flat(straight.to.tip)}, count(event.line));
-  if ((straight.to.tip - tip_.tip).norm() > kNowhere) go(event.line, straight, listeners);
+    contour_.lead_out({.start = plane_.flat(tip_.tip), .end = plane_.flat(straight.to.tip)}, count(event));
+  if ((straight.to.tip - tip_.tip).norm() > kNowhere) go(event, straight, listeners);
   if (move.kind == MoveKind::Arc) listeners.event(event);
   pass_on(listeners);
 }
@@ -156,7 +158,8 @@ void Compensation::pass_on(const Listeners& listeners) {
   }
   while (const auto flaw = contour_.next_flaw()) {
     const auto id = flaw->small_arc ? "inside-arc-too-small"_diag : "compensation-gouge"_diag;
-    RunWarning warning{.line = line_of(flaw->tag), .id = id, .values = {contour_.radius()}};
+    const ElementBlock& block = block_of(flaw->tag);
+    RunWarning warning{.line = block.line, .id = id, .values = {contour_.radius()}, .is_in_inches = block.is_in_inches};
     if (flaw->small_arc) warning.values = {*flaw->small_arc, contour_.radius()};
     listeners.warning(warning);
   }
@@ -186,7 +189,7 @@ void Compensation::go_along(const geometry::OffsetPiece& piece, const Listeners&
   } else if (move.kind == MoveKind::Arc) {
     move.kind = MoveKind::Feed;
   }
-  if (piece.curve.length() > kNowhere || (move.to.tip - tip_.tip).norm() > kNowhere) go(event.line, move, listeners);
+  if (piece.curve.length() > kNowhere || (move.to.tip - tip_.tip).norm() > kNowhere) go(event, move, listeners);
 }
 
 /// Passes on an event after an element. Its motions go along the normal only, with the rotary axes as programmed.
@@ -195,12 +198,12 @@ void Compensation::go_beside(const running::Event& event, const Listeners& liste
   if (move == nullptr) return listeners.event(event);
   running::MoveEvent beside = *move;
   beside.to.tip = plane_.point(plane_.flat(tip_.tip), plane_.normal.dot(move->to.tip));
-  go(event.line, beside, listeners);
+  go(event, beside, listeners);
 }
 
 /// Reports a motion from the actual tip position. While the tip is offset, each motion gets the normal, so that a copy
 /// of the machine can continue from it.
-void Compensation::go(std::size_t line, const running::MoveEvent& move, const Listeners& listeners) {
+void Compensation::go(const running::Event& of, const running::MoveEvent& move, const Listeners& listeners) {
   running::MoveEvent gone = move;
   if (is_beside_) gone.normal = plane_.normal;
   gone.from.tip = tip_.tip;
@@ -210,23 +213,29 @@ void Compensation::go(std::size_t line, const running::MoveEvent& move, const Li
     gone.length = std::hypot(gone.radius * gone.sweep_deg * std::numbers::pi / 180, rise);
   }
   tip_ = gone.to;
-  listeners.event({.line = line, .what = gone});
+  listeners.event({.line = of.line, .what = gone, .is_in_inches = of.is_in_inches});
 }
 
 std::size_t Compensation::memory() const {
-  return waiting_.size() * sizeof(HeldEvent) + lines_.size() * sizeof(std::size_t) + contour_.memory();
+  return waiting_.size() * sizeof(HeldEvent) + blocks_.size() * sizeof(ElementBlock) + contour_.memory();
 }
 
-std::size_t Compensation::line_of(std::uint64_t element) const {
+const Compensation::ElementBlock& Compensation::block_of(std::uint64_t element) const {
   const auto since = static_cast<std::size_t>(elements_ - element);
-  return lines_[lines_.size() - 1 - std::min(since, lines_.size() - 1)];
+  return blocks_[blocks_.size() - 1 - std::min(since, blocks_.size() - 1)];
 }
 
 /// Returns the number of a new element, from 1.
-std::uint64_t Compensation::count(std::size_t line) {
-  lines_.push_back(line);
-  if (lines_.size() > kLinesKept) lines_.pop_front();
+std::uint64_t Compensation::count(const running::Event& event) {
+  blocks_.push_back({event.line, event.is_in_inches});
+  if (blocks_.size() > kBlocksKept) blocks_.pop_front();
   return ++elements_;
+}
+
+syntax::Finding finding_of(const RunWarning& warning) {
+  syntax::Finding finding{.id = warning.id, .is_in_inches = warning.is_in_inches, .values = warning.values};
+  for (double& length : finding.values) length /= dialect::mm_per_unit(warning.is_in_inches);
+  return finding;
 }
 
 }  // namespace isocnc::simulation

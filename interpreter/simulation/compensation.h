@@ -8,6 +8,7 @@
 
 #include "interpreter/geometry/contour_offset.h"
 #include "interpreter/simulation/timing.h"
+#include "interpreter/syntax/finding.h"
 
 namespace isocnc::simulation {
 
@@ -15,10 +16,14 @@ namespace isocnc::simulation {
 struct RunWarning {
   std::size_t line = 0;  ///< From 0.
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
-  std::array<double, dialect::kMaxArguments> values{};
+  std::array<double, dialect::kMaxArguments> values{};  ///< Lengths in mm.
+  bool is_in_inches = false;                            ///< G70 is in force there.
 
   friend bool operator==(const RunWarning&, const RunWarning&) = default;
 };
+
+/// The finding that tells a warning, without a span.
+syntax::Finding finding_of(const RunWarning& warning);
 
 /// Turns the programmed motions under G41 and G42 into motions of the tool tip, in the same order among all events
 /// (docs/dialect.md gives the rules). Inserted motions get the line of the motion before them. All other events pass
@@ -70,6 +75,12 @@ class Compensation {
     bool is_upright(const running::MoveEvent& move) const;
   };
 
+  /// The block of an element.
+  struct ElementBlock {
+    std::size_t line = 0;
+    bool is_in_inches = false;
+  };
+
   /// An event that has not been passed on: an element of the contour, or an event after one.
   struct HeldEvent {
     running::Event event;
@@ -88,9 +99,9 @@ class Compensation {
   void pass_on_before(std::uint64_t element, const Listeners& listeners);
   void go_along(const geometry::OffsetPiece& piece, const Listeners& listeners);
   void go_beside(const running::Event& event, const Listeners& listeners);
-  void go(std::size_t line, const running::MoveEvent& move, const Listeners& listeners);
-  std::size_t line_of(std::uint64_t element) const;
-  std::uint64_t count(std::size_t line);
+  void go(const running::Event& of, const running::MoveEvent& move, const Listeners& listeners);
+  const ElementBlock& block_of(std::uint64_t element) const;
+  std::uint64_t count(const running::Event& event);
 
   const TimedMachine* machine_;
   double radius_ = 0;  // Radius of the mounted tool, mm.
@@ -101,7 +112,7 @@ class Compensation {
   bool is_beside_ = false;  // The tip is off the programmed position.
   geometry::Pose tip_;      // Position of the tip while it is off the program.
   std::deque<HeldEvent> waiting_;
-  std::deque<std::size_t> lines_;  // Lines of the last elements.
+  std::deque<ElementBlock> blocks_;  // Of the last elements.
   std::uint64_t elements_ = 0;
 };
 

@@ -38,8 +38,7 @@ void RunFindings::take(const running::Block& block) {
 
 /// Whether an F of this value gives this feed in mm/min, in millimeters or in inches.
 static bool gives_feed(double value, double feed) {
-  constexpr double kMillimetersPerInch = 25.4;
-  return std::abs(value - feed) <= 1e-9 * feed || std::abs(value * kMillimetersPerInch - feed) <= 1e-9 * feed;
+  return std::abs(value - feed) <= 1e-9 * feed || std::abs(value * dialect::mm_per_unit(true) - feed) <= 1e-9 * feed;
 }
 
 void RunFindings::take(const running::Event& event) {
@@ -62,14 +61,31 @@ void RunFindings::take(const running::Event& event) {
          {move->feed, limit_of(Limit::Feed, *machine_)});
 }
 
-void RunFindings::take(const RunWarning& warning) { report(warning.line, warning.id, warning.values); }
-
-void RunFindings::take(std::size_t line, kinematics::MadeMove& made) {
-  if (checks_travel_) look_at_travel(line, made);
-  if (checks_speeds_) look_at_speeds(line, made);
+void RunFindings::take(const RunWarning& warning) {
+  findings_.push_back({.line = warning.line, .finding = finding_of(warning)});
 }
 
-void RunFindings::look_at_travel(std::size_t line, kinematics::MadeMove& made) {
+void RunFindings::take(const running::Event& event, kinematics::MadeMove& made) {
+  if (checks_travel_) look_at_travel(event, made);
+  if (checks_speeds_) look_at_speeds(event.line, made);
+}
+
+static bool is_linear(std::size_t axis) { return axis < kinematics::kB; }
+
+/// A position of a joint as a message shows it.
+static double shown_position(std::size_t axis, double position, bool is_in_inches) {
+  return is_linear(axis) ? position / dialect::mm_per_unit(is_in_inches) : position;
+}
+
+syntax::Finding travel_finding(const kinematics::Overtravel& found, bool is_in_inches) {
+  const auto axis = static_cast<std::size_t>(found.axis);
+  return {.id = "joint-travel"_diag,
+          .is_in_inches = is_in_inches && is_linear(axis),
+          .values = {static_cast<double>(axis), shown_position(axis, found.position, is_in_inches),
+                     shown_position(axis, found.limit, is_in_inches)}};
+}
+
+void RunFindings::look_at_travel(const running::Event& event, kinematics::MadeMove& made) {
   const kinematics::Move& move = made.move();
   std::array<bool, 2 * kinematics::kAxisCount> is_passed{};
   for (const kinematics::Overtravel& found : made.overtravels()) {
@@ -93,7 +109,9 @@ void RunFindings::look_at_travel(std::size_t line, kinematics::MadeMove& made) {
     }
     double& farthest = farthest_[static_cast<std::size_t>(end.mistake)];
     if (beyond(found.position) > beyond(farthest)) farthest = found.position;
-    report(line, "joint-travel"_diag, {static_cast<double>(found.axis), found.position, found.limit}, end.mistake);
+    // The farthest position is known at the end.
+    findings_.push_back(
+        {.line = event.line, .finding = travel_finding(found, event.is_in_inches), .mistake = end.mistake});
   }
   for (std::size_t i = 0; i < ends_.size(); ++i) ends_[i].is_passed = ends_[i].is_passed && is_passed[i];
 }
@@ -136,7 +154,11 @@ std::vector<RunFinding> RunFindings::marked(std::string_view text) const {
   syntax::LineFinder lines(text);
   for (RunFinding& each : found) {
     each.finding.span = span_of(each.finding.id, syntax::ParsedLine(lines.line(each.line)).tree());
-    if (each.mistake >= 0) each.finding.values[1] = farthest_[static_cast<std::size_t>(each.mistake)];
+    if (each.mistake < 0) continue;
+    const syntax::Finding& finding = each.finding;
+    const auto axis = static_cast<std::size_t>(finding.values[0]);
+    each.finding.values[1] =
+        shown_position(axis, farthest_[static_cast<std::size_t>(each.mistake)], finding.is_in_inches);
   }
   const auto place = [](const RunFinding& each) {
     return std::tuple(each.line, each.finding.span.begin, each.finding.id, each.mistake);
@@ -189,7 +211,7 @@ RunOutcome outcome_of_run(std::string_view text, running::RunOptions options, co
   const MachineCourse::Listeners listeners{.move =
                                                [&](const running::Event& event, const kinematics::Move& move) {
                                                  kinematics::MadeMove made(machine.motion, move);
-                                                 findings.take(event.line, made);
+                                                 findings.take(event, made);
                                                },
                                            .warning = [&](const RunWarning& warning) { findings.take(warning); }};
   options.before_block = [&](const running::Block& block) { findings.take(block); };

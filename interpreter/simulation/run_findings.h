@@ -79,8 +79,8 @@ class RunFindings {
   /// Takes an event as programmed, after its block.
   void take(const running::Event& event);
   void take(const RunWarning& warning);
-  /// Takes a motion as the machine makes it, in the order of the run.
-  void take(std::size_t line, kinematics::MadeMove& made);
+  /// Takes a motion as the machine makes it, with its event, in the order of the run.
+  void take(const running::Event& event, kinematics::MadeMove& made);
 
   /// The outcome of a run that has ended. `text` is that of the program.
   RunOutcome outcome(std::string_view text, const running::RunResult& result) const;
@@ -99,7 +99,7 @@ class RunFindings {
     bool is_reported = false;
   };
 
-  void look_at_travel(std::size_t line, kinematics::MadeMove& made);
+  void look_at_travel(const running::Event& event, kinematics::MadeMove& made);
   void look_at_speeds(std::size_t line, kinematics::MadeMove& made);
   std::vector<RunFinding> marked(std::string_view text) const;
   void report(std::size_t line, dialect::DiagnosticId id, const std::array<double, dialect::kMaxArguments>& values,
@@ -115,6 +115,9 @@ class RunFindings {
   TakenPath taken_;
   bool has_jumped_ = true;  ///< The next block starts a stretch.
 };
+
+/// The finding that tells that a joint passes the end of its travel, without a span.
+syntax::Finding travel_finding(const kinematics::Overtravel& found, bool is_in_inches);
 
 /// The words of a line's motion; all words if it has none.
 syntax::Span motion_span(const syntax::LineTree& line);

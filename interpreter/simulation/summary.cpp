@@ -43,6 +43,7 @@ void Summary::add(const TimedEvent& timed) {
 }
 
 void Summary::add(const TimedEvent& timed, kinematics::MadeMove* made) {
+  has_inches_ |= timed.event.is_in_inches;
   const running::Event& event = timed.event;
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what)) mount(tool->tool);
   if (const std::optional<Work> work = work_of(event)) spend(*work, timed.duration);

@@ -92,6 +92,7 @@ class Summary {
   bool checks_travel_;
   std::array<std::optional<Excess>, kLimitCount> excesses_;
   running::RunResult result_;
+  bool has_inches_ = false;  ///< Some block is under G70.
   double seconds_ = 0;
   kinematics::Coordinates joints_ = kinematics::Coordinates::Zero();
   std::vector<RunWarning> warnings_;

@@ -63,6 +63,8 @@ static constexpr Text kExcesses[] = {
      "{}\n"}};
 static constexpr Text kFinal{"final position (machine): X{:.3f} Y{:.3f} Z{:.3f} B{:.3f} C{:.3f}\n",
                              "posizione finale (macchina): X{:.3f} Y{:.3f} Z{:.3f} B{:.3f} C{:.3f}\n"};
+static constexpr Text kInMillimeters{"lengths and positions: in mm, also of blocks under G70\n",
+                                     "lunghezze e posizioni: in mm, anche quelle dei blocchi con la G70\n"};
 static constexpr Text kFinalState{"final state: tool {}, {}\n", "stato finale: utensile {}, {}\n"};
 
 /// The total time and its parts: `46.3 s (rapids 2.4 s, ...)`.
@@ -128,6 +130,7 @@ std::string Summary::text(Language language) const {
     if (const auto& excess = excesses_[i])
       said += say(kExcesses[i], excess->maximum, limit_of(static_cast<Limit>(i), machine_), excess->line + 1);
   const geometry::Pose pose = final_pose();
+  if (has_inches_) said += kInMillimeters.in(language);
   said += say(kFinal, pose.tip.x(), pose.tip.y(), pose.tip.z(), pose.b, pose.c);
   const State& state = result_.state;
   const auto tool = state.tool_selected ? std::optional(state.tool) : std::nullopt;
@@ -179,7 +182,7 @@ static OrderedJson json_of(const RunWarning& warning, Language language) {
   return {{"line", warning.line + 1},
           {"code", def.code},
           {"name", def.name},
-          {"message", dialect::message(warning.id, language, {.values = warning.values})}};
+          {"message", syntax::message(finding_of(warning), {}, language)}};
 }
 
 static OrderedJson json_of(const State& state) {

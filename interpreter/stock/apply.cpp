@@ -96,7 +96,10 @@ CutBand band_of(const UnitSweep& unit, const SweptShape& shape, const Sweep& swe
     return CutBand::along_line(line->from.head<2>(), line->to.head<2>(), shape.radius, sweep.side_rim, sweep.end_rim);
   if (const auto* arc = std::get_if<LevelArc>(&unit.motion))
     return CutBand::along_arc(arc->center, arc->start, arc->end, shape.radius, sweep.side_rim, sweep.end_rim);
-  if (std::holds_alternative<TurningPath>(sweep.path)) return {};
+  // While the axis turns the units are poses and very short ways: what counts is the way of all of them.
+  if (const auto* turning = std::get_if<TurningPath>(&sweep.path))
+    return CutBand::along_slanted(turning->from.origin, turning->from.axis + turning->to.axis,
+                                  turning->to.origin - turning->from.origin, shape.radius, sweep.side_rim);
   const SlantedLine& line = std::get<SlantedLine>(unit.motion);
   return CutBand::along_slanted(line.from.origin, line.from.axis, line.travel, shape.radius, sweep.side_rim);
 }

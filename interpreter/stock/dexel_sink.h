@@ -7,6 +7,9 @@
 
 namespace isocnc::stock {
 
+/// Dexels that a sweep looks at together: as many floats as the vectors of a usual processor hold.
+inline constexpr int kTogether = 8;
+
 /// Takes the intervals of dexels of one tile that a sweep covers, and cuts them, or only counts the material in them.
 class DexelSink {
  public:

@@ -12,7 +12,6 @@ using chords::LowerSurface;
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr int kTogether = 8;  ///< Dexels that are looked at together.
 
 /// A slanted line, seen along its direction in the plane.
 struct Slope {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/solids/clearance.h"
+#include "interpreter/text/hash.h"
 
 // All numbers are little endian, floats are IEEE 754:
 //
@@ -18,6 +19,7 @@
 //   rows         u32
 //   bounds       6 f64: smallest x, y, z, largest x, y, z. The grid is grid_of(bounds, columns, rows).
 //   tiles        row by row, as many as the grid has
+//   check sum    u64: text::hash_on() of all bytes before it
 //
 // A tile is one of:
 //
@@ -35,7 +37,7 @@ using FileProblem = StockFileProblem::Kind;
 namespace {
 
 constexpr std::string_view kMagic = "isostock";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;  // 1 had no check sum.
 constexpr std::size_t kSmallestTile = 9;
 constexpr std::size_t kMaxPacket = 32767;
 constexpr std::size_t kSmallestRun = 3;  ///< Shorter runs are written as other heights.
@@ -46,6 +48,7 @@ class Writer {
   void write_u8(std::size_t value) { write_integer(value, 1); }
   void write_u16(std::size_t value) { write_integer(value, 2); }
   void write_u32(std::size_t value) { write_integer(value, 4); }
+  void write_u64(std::uint64_t value) { write_integer(value, 8); }
   void write_f32(float value) { write_integer(std::bit_cast<std::uint32_t>(value), 4); }
   void write_f64(double value) { write_integer(std::bit_cast<std::uint64_t>(value), 8); }
 
@@ -65,6 +68,7 @@ class Writer {
     write_others(heights, others, heights.size());
   }
 
+  const std::string& bytes() const { return bytes_; }
   std::string take() { return std::move(bytes_); }
 
  private:
@@ -141,6 +145,8 @@ class Reader {
   }
   std::uint32_t read_u8() { return static_cast<std::uint32_t>(read_integer(1)); }
   std::uint32_t read_u32() { return static_cast<std::uint32_t>(read_integer(4)); }
+  std::uint64_t read_u64() { return read_integer(8); }
+  std::string_view read_so_far() const { return bytes_.substr(0, at_); }
   std::int16_t read_i16() { return std::bit_cast<std::int16_t>(static_cast<std::uint16_t>(read_integer(2))); }
   /// A value in [low, high].
   float read_f32(float low, float high) {
@@ -215,6 +221,7 @@ class StockReader {
       const DexelGrid part = grid.tile(static_cast<int>(i) % across, static_cast<int>(i) / across);
       tiles.push_back(read_tile(part.columns, part.rows));
     }
+    check_sum();
     if (in_.left() > 0) in_.fail(FileProblem::TooLong, in_.offset());
     if (in_.is_usable()) return Stock(bounds, columns, rows, std::move(tiles));
     StockFileProblem problem = *in_.problem();
@@ -223,6 +230,14 @@ class StockReader {
   }
 
  private:
+  /// A value that is possible may be damaged all the same.
+  void check_sum() {
+    if (!in_.is_usable()) return;
+    const std::uint64_t sum = text::hash_on(text::kHashStart, in_.read_so_far());
+    const std::size_t start = in_.offset();
+    if (in_.read_u64() != sum && in_.is_usable()) in_.fail(FileProblem::Damaged, start);
+  }
+
   solids::BoundingBox read_bounds() {
     solids::BoundingBox bounds;
     for (int i = 0; i < 3; ++i) bounds.min()[i] = in_.read_f64(-solids::kMaxCoordinate, solids::kMaxCoordinate);
@@ -334,6 +349,7 @@ std::string write_stock(const Stock& stock) {
   for (const double value : stock.bounds().max()) out.write_f64(value);
   for (int row = 0; row < grid.tile_rows(); ++row)
     for (int column = 0; column < grid.tile_columns(); ++column) write_tile(stock.tile({column, row}), out);
+  out.write_u64(text::hash_on(text::kHashStart, out.bytes()));
   return out.take();
 }
 

@@ -59,7 +59,7 @@ struct SweepOutcome {
   double length = 0;                              ///< Greatest length of material in one dexel, vertical as it is, mm.
   geometry::Vec3 point = geometry::Vec3::Zero();  ///< Lower end of that material; of equal ones, the first in order.
 
-  /// Of cuts: the depth, and its point, without the rims. While the axis turns, nothing is left out.
+  /// Of cuts: the depth, and its point, without the rims. Where the axis turns at one place, nothing is left out.
   double inside_depth = 0;
   geometry::Vec3 inside_point = geometry::Vec3::Zero();
 

@@ -347,7 +347,6 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
     }
     return present;
   };
-  constexpr int kTogether = SweptPiece::kTogether;
   using Floats = std::array<float, kTogether>;
   // Lowers `clearances` to those of all pieces that have a part in these dexels.
   const auto clear = [&](int row, int group, int size, const Floats& tops, Floats& clearances) {

@@ -23,9 +23,6 @@ class SweptPiece {
   const solids::BoundingBox& bounds() const { return bounds_; }
   HeightInterval chord(const geometry::Vec2& line) const;
 
-  /// Dexels that are looked at together.
-  static constexpr int kTogether = 8;
-
   /// From where to where along x the lines at a y may meet the sweep: a polygon around its shadow.
   HeightInterval shadow(double y) const;
   /// Of the lines at x, x + step, and so on, all at y, sets a number above 0 for those that surely meet nothing at

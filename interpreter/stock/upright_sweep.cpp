@@ -174,9 +174,7 @@ class ClearedRow {
   bool is_known_ = false;
 };
 
-constexpr int kGroup = 8;  ///< Dexels that are looked at together.
-
-using RowGroup = Eigen::Array<float, kGroup, 1>;
+using RowGroup = Eigen::Array<float, kTogether, 1>;
 
 bool are_at_most(float height, const float* values) { return Eigen::Map<const RowGroup>(values).maxCoeff() <= height; }
 
@@ -337,12 +335,12 @@ void sweep(const RevolvedColumn& column, const UprightLine& line, const UprightL
       const float* const tops = reaches_above ? sink.tops_to_cut(row, first) : nullptr;
       if (tops && ball.is_usable()) ball.find(tops, last - first, start + first * step, rise, within.data());
       int waiting = first;  // From here on, dexels are to be taken.
-      for (int i = first; tops && i + kGroup <= last; i += kGroup) {
+      for (int i = first; tops && i + kTogether <= last; i += kTogether) {
         const bool is_free =
             ball.is_usable() ? are_at_most(0, within.data() + (i - first)) : are_at_most(lowest, tops + (i - first));
         if (!is_free) continue;
         if (waiting < i) take(waiting, i);
-        waiting = i + kGroup;
+        waiting = i + kTogether;
       }
       if (waiting < last) take(waiting, last);
     };

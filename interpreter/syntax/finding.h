@@ -32,6 +32,8 @@ constexpr Span hull(Span a, Span b) { return {a.begin < b.begin ? a.begin : b.be
 struct Finding {
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
   std::uint8_t cause = 0;  ///< Selects the message, dialect::Cause::number.
+  /// The values that are lengths are in inches, as the program has them under G70; else in mm.
+  bool is_in_inches = false;
   Span span;
   Span related;  ///< A second place on the same line that explains the first (the first F of two); may be empty.
   std::array<double, dialect::kMaxArguments> values{};
@@ -67,7 +69,8 @@ inline std::string message(const Finding& finding, std::string_view line, dialec
                           {.text = text_of(finding.span),
                            .other = text_of(finding.related),
                            .values = finding.values,
-                           .names = finding.names});
+                           .names = finding.names,
+                           .is_in_inches = finding.is_in_inches});
 }
 
 }  // namespace isocnc::syntax

@@ -6,6 +6,7 @@
 #include "interpreter/dialect/near_codes.h"
 #include "interpreter/syntax/line_parser.h"
 #include "interpreter/text/characters.h"
+#include "interpreter/text/hash.h"
 
 namespace isocnc::syntax {
 
@@ -279,7 +280,7 @@ void LineParser::add_tool(std::uint16_t index) {
 /// The value of a label, which may have any number of digits; above 15 digits, a hash of them.
 std::uint64_t LineParser::label_of(const Word& number) const {
   if (number.digits <= 15) return static_cast<std::uint64_t>(number.value);
-  std::uint64_t hash = 14695981039346656037ULL;
+  std::uint64_t hash = text::kHashStart;
   bool leading = true;
   bool in_comment = false;
   for (const char c : text_of(number.span())) {
@@ -287,7 +288,7 @@ std::uint64_t LineParser::label_of(const Word& number) const {
     if (c == ')') in_comment = false;
     if (in_comment || !text::is_digit(c) || (leading && c == '0')) continue;
     leading = false;
-    hash = (hash ^ static_cast<std::uint64_t>(c)) * 1099511628211ULL;
+    hash = text::hash_on(hash, c);
   }
   return leading ? 0 : hash | (std::uint64_t{1} << 63);
 }

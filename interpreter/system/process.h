@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <variant>
 #include <vector>
 
 namespace isocnc::system {
@@ -48,6 +51,19 @@ bool has_threads();
 
 /// Whether a process with this number exists.
 bool is_running(std::int64_t process);
+
+/// What has become of a program that ran to its end.
+struct ProgramEnd {
+  int status = 0;      ///< Its exit status; above 128 where a signal ended it.
+  std::string output;  ///< What it wrote to standard output.
+  std::string errors;  ///< And to standard error.
+};
+
+/// Runs another program to its end with `input` as its standard input: its name, which is looked for in the PATH alone,
+/// and its arguments. An error where it cannot be started: std::errc::no_such_file_or_directory where there is none of
+/// this name, and std::errc::function_not_supported in WebAssembly, where there are no processes. Call prepare_process
+/// before: the other program need not read its input.
+std::variant<ProgramEnd, std::error_code> run_program(const std::vector<std::string>& command, std::string_view input);
 
 /// The file of the program that runs; empty if the system does not tell.
 std::filesystem::path program_file();

@@ -175,6 +175,15 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::read_stream(int descri
   return read(descriptor, 0, language);
 }
 
+std::variant<SourceFile, SourceFile::Problem> SourceFile::of_bytes(std::string_view bytes, Language language) {
+  SourceFile file;
+  if (!grow(file.read_, bytes.size())) return unreadable(ENOMEM, language);
+  bytes.copy(file.read_.data.get(), bytes.size());
+  file.read_.size = bytes.size();
+  if (const std::optional<Text> text = obstacle_in_head(file.text())) return Problem{std::string(text->in(language))};
+  return with_short_lines(std::move(file), language);
+}
+
 /// Checks the first bytes before reading further, since a device may have no end.
 std::variant<SourceFile, SourceFile::Problem> SourceFile::read(int descriptor, std::size_t expected,
                                                                Language language) {

@@ -31,6 +31,8 @@ class SourceFile {
   static std::variant<SourceFile, Problem> open_unmapped(const std::filesystem::path& path, dialect::Language language);
   /// Reads from the current position of `descriptor` without closing it: for standard input and pipes.
   static std::variant<SourceFile, Problem> read_stream(int descriptor, dialect::Language language);
+  /// Takes the bytes of a file that is in no folder, such as a revision in git.
+  static std::variant<SourceFile, Problem> of_bytes(std::string_view bytes, dialect::Language language);
 
   /// The text without a byte-order mark (D5). Valid until this object is moved or destroyed.
   std::string_view text() const;

@@ -10,6 +10,7 @@ namespace isocnc::verification {
 using dialect::GivenName;
 using geometry::Vec3;
 using kinematics::MachineKind;
+using removal::ToolPart;
 
 namespace {
 
@@ -18,17 +19,15 @@ namespace {
 constexpr double kSlack = 0.03;  // mm; above kContactDistance, so that such a motion is soon proven to be clear.
 
 /// What a part is called, with a place for the name of its tool.
-dialect::Text name_of(PartKind kind) {
-  switch (kind) {
-    case PartKind::Cutter:
+dialect::Text name_of(ToolPart part) {
+  switch (part) {
+    case ToolPart::Cutter:
       return {"the cutter of {}", "la fresa {}"};
-    case PartKind::Shank:
+    case ToolPart::Shank:
       return {"the shank of {}", "il gambo di {}"};
-    case PartKind::Holder:
+    case ToolPart::Holder:
       return {"the holder of {}", "il portautensile di {}"};
-    case PartKind::Nose:
-    case PartKind::MachineBody:
-    case PartKind::SetupBody:
+    case ToolPart::Nose:
       break;
   }
   return {"the spindle nose", "il naso del mandrino"};
@@ -65,20 +64,21 @@ class PairsMaker {
   void add_tool() {
     if (!knows_spindle()) return;
     if (tool_.bodies) {
-      add_part(PartKind::Cutter, tool_.bodies->cutter, 0);
-      add_part(PartKind::Shank, tool_.bodies->shank, 0);
-      add_part(PartKind::Holder, tool_.bodies->holder, 0);
+      add_part(ToolPart::Cutter, tool_.bodies->cutter, 0);
+      add_part(ToolPart::Shank, tool_.bodies->shank, 0);
+      add_part(ToolPart::Holder, tool_.bodies->holder, 0);
     }
-    add_part(PartKind::Nose, scene_.nose, tool_.length);
+    add_part(ToolPart::Nose, scene_.nose, tool_.length);
   }
 
-  void add_part(PartKind kind, const std::optional<solids::RevolvedBody>& body, double offset) {
+  void add_part(ToolPart part, const std::optional<solids::RevolvedBody>& body, double offset) {
     if (!body) return;
-    result_.parts.push_back({.kind = kind, .revolved = &*body, .offset = offset, .name = part_name(kind, tool_.name)});
+    result_.parts.push_back(
+        {.of_spindle = part, .revolved = &*body, .offset = offset, .name = part_name(part, tool_.name)});
   }
 
-  void add_body(PartKind kind, const SceneBody& body, Link on, const Vec3& shift) {
-    result_.parts.push_back({.kind = kind, .body = &body, .on = on, .shift = shift, .name = body_name(body)});
+  void add_body(const SceneBody& body, Link on, const Vec3& shift) {
+    result_.parts.push_back({.body = &body, .on = on, .shift = shift, .name = body_name(body)});
   }
 
   /// Whether a link is between the machine's frame and the spindle.
@@ -91,12 +91,12 @@ class PairsMaker {
     for (const SceneBody& body : scene_.machine) {
       if (carries_spindle(body.on)) {
         if (!knows_spindle()) continue;
-        add_body(PartKind::MachineBody, body, body.on, Vec3::Zero());
+        add_body(body, body.on, Vec3::Zero());
         // The tool moves towards what carries it: along Y and Z past a gantry, and a head turns it towards the ram.
         const Link last = kinematics_.kind == MachineKind::Head ? Link::Z : Link::Y;
         if (body.on > last) continue;
       } else if (body.on != Link::Machine) {
-        add_body(PartKind::MachineBody, body, body.on, Vec3::Zero());
+        add_body(body, body.on, Vec3::Zero());
       }
       result_.obstacles.push_back({.body = &body, .shape = body.shape, .on = body.on, .name = body_name(body)});
     }
@@ -109,8 +109,7 @@ class PairsMaker {
           .body = &body, .shape = body.shape, .on = kinematics::workpiece_link(kinematics_), .name = body_name(body)};
       if (scene_.is_in_workpiece_frame) obstacle.shift = origin;
       // A board whose ends are not known cannot be compared with the machine around the table.
-      if (obstacle.on != Link::Machine && !body.is_endless)
-        add_body(PartKind::SetupBody, body, obstacle.on, obstacle.shift);
+      if (obstacle.on != Link::Machine && !body.is_endless) add_body(body, obstacle.on, obstacle.shift);
       auto* const box = std::get_if<solids::Cuboid>(&obstacle.shape);
       if (body.role == BodyRole::Spoilboard && box) box->maximum.z() -= kSlack;
       result_.obstacles.push_back(std::move(obstacle));
@@ -121,7 +120,7 @@ class PairsMaker {
   /// links that carry one another touch as well, and so do bodies that touch from the start.
   bool may_meet(const MovingPart& part, const Obstacle& obstacle) const {
     const bool is_own = carries_spindle(obstacle.on);
-    if (part.revolved) return !(is_own && part.kind == PartKind::Nose);
+    if (part.revolved) return !(is_own && part.of_spindle == ToolPart::Nose);
     if (carries_spindle(part.on) ? is_own : obstacle.on != Link::Machine) return false;
     const auto are_these = [&](const TouchingBodies& each) {
       return part.body == &scene_.machine[each.moving] && obstacle.body == &scene_.machine[each.other];
@@ -134,7 +133,7 @@ class PairsMaker {
     const Obstacle& obstacle = result_.obstacles[obstacle_index];
     if (!may_meet(part, obstacle)) return;
     BodyPair pair{.part = part_index, .obstacle = obstacle_index, .revolved = part.revolved, .limit = kContactDistance};
-    if (obstacle.body->role == BodyRole::Target && part.kind == PartKind::Cutter) {
+    if (obstacle.body->role == BodyRole::Target && part.of_spindle == ToolPart::Cutter) {
       const double depth = scene_.target_tolerance + kSlack;
       std::optional<solids::RevolvedBody> reduced = part.revolved->reduced(depth);
       pair.slack = kSlack;
@@ -151,10 +150,10 @@ class PairsMaker {
     }
     if (obstacle.body->role == BodyRole::Spoilboard && std::holds_alternative<solids::Cuboid>(obstacle.shape))
       pair.slack = kSlack;
-    const bool is_cutting = part.kind == PartKind::Cutter || part.kind == PartKind::Shank;
+    const bool is_cutting = part.of_spindle == ToolPart::Cutter || part.of_spindle == ToolPart::Shank;
     const BodyRole role = obstacle.body->role;
     // Bodies of a machine pass one another closely by design.
-    const bool is_of_machine = role == BodyRole::Machine && part.kind == PartKind::MachineBody;
+    const bool is_of_machine = role == BodyRole::Machine && part.body && part.body->role == BodyRole::Machine;
     pair.is_watched = role == BodyRole::Fixture || (role == BodyRole::Machine && !is_of_machine) ||
                       (role == BodyRole::Spoilboard && !is_cutting);
     if (pair.is_watched && scene_.clearance > kContactDistance) {
@@ -235,8 +234,8 @@ class PairsMaker {
 
 }  // namespace
 
-GivenName part_name(PartKind kind, const std::string& tool) {
-  const dialect::Text name = name_of(kind);
+GivenName part_name(ToolPart part, const std::string& tool) {
+  const dialect::Text name = name_of(part);
   return GivenName::of({dialect::format(name, dialect::Language::English, tool),
                         dialect::format(name, dialect::Language::Italian, tool)});
 }

@@ -1,24 +1,22 @@
 #pragma once
 
-#include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "interpreter/dialect/given_name.h"
+#include "interpreter/removal/workpiece.h"
 #include "interpreter/solids/clearance.h"
 #include "interpreter/verification/motion_bounds.h"
 #include "interpreter/verification/scene.h"
 
 namespace isocnc::verification {
 
-/// What a moving body is.
-enum class PartKind : std::uint8_t { Cutter, Shank, Holder, Nose, MachineBody, SetupBody };
-
 /// A body that motions move: a part of the tool, the nose, a body of the machine on a link, or a body of the setup on a
 /// table that turns. Those on the table are obstacles as well.
 struct MovingPart {
-  PartKind kind = PartKind::Cutter;
+  std::optional<removal::ToolPart> of_spindle;     ///< Of what turns in the spindle; none for other bodies.
   const solids::RevolvedBody* revolved = nullptr;  ///< Of the tool and the nose; about the tool's axis.
   double offset = 0;                               ///< Height of the revolved body's z = 0 above the tip, mm.
   const SceneBody* body = nullptr;                 ///< Of the machine or the setup.
@@ -98,7 +96,7 @@ struct MountedTool {
 };
 
 /// How messages call a part of a tool (`T101001`), or the nose.
-dialect::GivenName part_name(PartKind kind, const std::string& tool);
+dialect::GivenName part_name(removal::ToolPart part, const std::string& tool);
 
 /// `origin` is that of the setup's frame, in the machine frame. The result refers to the scene.
 BodyPairs pairs_of(const Scene& scene, const kinematics::Kinematics& kinematics, const MountedTool& tool,

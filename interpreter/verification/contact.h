@@ -32,13 +32,14 @@ struct Contact {
   /// Of the obstacle, at that place; mm, machine frame of the program: on a table that turns it turns with the
   /// workpiece.
   geometry::Vec3 point = geometry::Vec3::Zero();
-  geometry::Frame frame;  ///< In force at `line`; in the machine frame.
+  geometry::Frame frame;      ///< In force at `line`; in the machine frame.
+  bool is_in_inches = false;  ///< G70 is in force there: it is told in inches.
   Mover mover = kSpindle;
   std::int32_t mistake = -1;  ///< Equal for contacts of the same mover, with the same tool, with the same obstacle.
   BodyDescription described;  ///< Where the obstacle is described.
   bool is_of_material = false;
   bool is_of_edge = false;       ///< W157: because the edge is too short.
-  double limit = 0;              ///< W157: how deep the tool may cut, mm.
+  double limit = 0;              ///< W157: how deep the tool may cut; W156: the tolerance; mm.
   std::optional<double> volume;  ///< W156, W161: of what is left or comes free, mm^3.
   std::optional<double> enough;  ///< E150, E151: the Z, in `frame`, with which nothing would have been met, if any; mm.
   /// E150, E151, W154: the line that cut last what is met. E158: that which stopped the spindle. From 0.

@@ -94,6 +94,7 @@ void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
     contact.line = at_.line;
     contact.time = touch.touch->first;
     contact.frame = at_.frame;
+    contact.is_in_inches = at_.is_in_inches;
   }
   if (is_first || touch.touch->last >= contact.end_time) {
     contact.end_line = at_.line;
@@ -117,6 +118,7 @@ void ContactLog::take_near(Episode& episode, const Visit& visit) const {
   contact.distance = encounter.distance;
   contact.point = encounter.point;
   contact.frame = at_.frame;
+  contact.is_in_inches = at_.is_in_inches;
 }
 
 void ContactLog::close(Episode& episode) {

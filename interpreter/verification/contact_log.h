@@ -13,9 +13,10 @@ namespace isocnc::verification {
 
 /// A stretch that an encounter happens on, as the log needs it.
 struct StretchPlace {
-  std::size_t number = 0;  ///< Of the stretch, counted from the start of the run.
-  std::size_t line = 0;    ///< From 0.
-  geometry::Frame frame;   ///< In force; in the machine frame.
+  std::size_t number = 0;     ///< Of the stretch, counted from the start of the run.
+  std::size_t line = 0;       ///< From 0.
+  geometry::Frame frame;      ///< In force; in the machine frame.
+  bool is_in_inches = false;  ///< G70 is in force.
 };
 
 /// Puts encounters together: a mover that touches an obstacle is one contact until all of it has left the obstacle,

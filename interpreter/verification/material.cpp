@@ -13,7 +13,7 @@ using namespace dialect::literals;
 using removal::IncidentKind;
 using removal::ToolPart;
 
-/// Dexels that a small blank has at least, if they need not be finer than kFinest.
+/// Dexels that a small blank has, up to half or twice as many, if they need not be finer than kFinest.
 static constexpr double kDexels = 1e6;
 static constexpr double kFinest = 0.1;
 /// What others cut panels with; mm.
@@ -34,13 +34,23 @@ static const SceneBody* body_for(const Scene& scene, BodyRole role) {
   return found == scene.setup.end() ? nullptr : &*found;
 }
 
+/// The smallest spacing from a value on that a person would choose: 1, 2, 2.5 or 5 times a power of ten.
+static double round_spacing_from(double spacing) {
+  constexpr double kNoise = 1e-9;
+  const double power = std::pow(10, std::floor(std::log10(spacing)));
+  for (const double step : {1.0, 2.0, 2.5, 5.0})
+    if (step * power >= spacing * (1 - kNoise)) return step * power;
+  return 10 * power;
+}
+
 /// The spacing for a blank of which the user has said none.
 static double usual_spacing(const removal::Workpiece& workpiece) {
   const stock::Blank& blank = workpiece.blank;
   if (const auto* const left = std::get_if<stock::LeftStock>(&blank)) return left->stock->spacing();
   const Eigen::Vector3d sizes = stock::bounds_of(blank, workpiece.window).sizes();
-  const double fine = std::clamp(std::sqrt(sizes.x() * sizes.y() / kDexels), kFinest, kUsual);
-  return std::max(fine, stock::fitting_spacing(blank, kMaxStockMemory / 8, workpiece.window));
+  const double fine = round_spacing_from(std::sqrt(sizes.x() * sizes.y() / kDexels / 2));
+  const double fitting = stock::fitting_spacing(blank, kMaxStockMemory / 8, workpiece.window);
+  return std::max(std::clamp(fine, kFinest, kUsual), round_spacing_from(fitting));
 }
 
 std::optional<removal::Workpiece> workpiece_of(const Scene& scene, const geometry::Vec3& origin,
@@ -71,7 +81,7 @@ std::optional<removal::Workpiece> workpiece_of(const Scene& scene, const geometr
 std::optional<double> coarser_spacing(const removal::Workpiece& workpiece) {
   if (stock::required_memory(workpiece.blank, workpiece.spacing, workpiece.window) <= kMaxStockMemory)
     return std::nullopt;
-  return stock::fitting_spacing(workpiece.blank, kMaxStockMemory, workpiece.window);
+  return round_spacing_from(stock::fitting_spacing(workpiece.blank, kMaxStockMemory, workpiece.window));
 }
 
 removal::CuttingTool cutting_tool(const Scene& scene, const MountedTool& tool) {
@@ -110,20 +120,6 @@ dialect::DiagnosticId diagnostic_of(IncidentKind kind) {
   return dialect::kNoDiagnostic;
 }
 
-static PartKind kind_of(ToolPart part) {
-  switch (part) {
-    case ToolPart::Cutter:
-      return PartKind::Cutter;
-    case ToolPart::Shank:
-      return PartKind::Shank;
-    case ToolPart::Holder:
-      return PartKind::Holder;
-    case ToolPart::Nose:
-      break;
-  }
-  return PartKind::Nose;
-}
-
 Contact contact_of(const removal::Incident& incident, const Scene& scene) {
   Contact contact{.id = diagnostic_of(incident.kind),
                   .line = incident.line,
@@ -131,12 +127,13 @@ Contact contact_of(const removal::Incident& incident, const Scene& scene) {
                   .time = incident.time,
                   .end_time = incident.end_time,
                   .tool = incident.tool};
-  contact.who = part_name(incident.kind == IncidentKind::EdgeTooShort ? PartKind::Cutter : kind_of(incident.part),
+  contact.who = part_name(incident.kind == IncidentKind::EdgeTooShort ? ToolPart::Cutter : incident.part,
                           running::tool_name(incident.tool));
   contact.whom = dialect::GivenName::of({"the material", "il materiale"});
   contact.distance = incident.kind == IncidentKind::NearMaterial ? incident.amount : -incident.amount;
   contact.point = incident.point;
   contact.frame = incident.frame;
+  contact.is_in_inches = incident.is_in_inches;
   contact.is_of_material = true;
   contact.is_of_edge = incident.kind == IncidentKind::EdgeTooShort;
   contact.limit = incident.limit;

@@ -18,6 +18,10 @@ struct MaterialOptions {
   std::optional<double> max_dexels;  ///< Makes the spacing coarser, so that there are not more.
 };
 
+/// Spacings of dexels that may be asked for, mm.
+inline constexpr double kFinestResolution = 0.01;
+inline constexpr double kCoarsestResolution = 100;
+
 /// The memory that a stock may take, bytes.
 inline constexpr double kMaxStockMemory = 2e9;
 
@@ -41,7 +45,7 @@ Contact contact_of(const removal::Incident& incident, const Scene& scene);
 struct MaterialReport {
   double blank_volume = 0;  ///< mm^3
   std::vector<removal::RemovedByTool> by_tool;
-  std::vector<removal::RemovedByLine> by_line;
+  std::vector<simulation::RemovedOnLine> by_line;  ///< In the order of the run.
   stock::Stock stock;                              ///< What remains; in the frame of the setup.
   geometry::Vec3 origin = geometry::Vec3::Zero();  ///< Of that frame; machine frame, mm.
 };

@@ -15,11 +15,12 @@ using dialect::Language;
 using dialect::Text;
 using OrderedJson = nlohmann::ordered_json;
 
-/// A number of things, its digits in groups of three.
+/// A number of things, its digits in groups of three. The point is that of decimals in both languages, as in programs,
+/// so that Italian groups have a space.
 static std::string grouped(std::size_t count, Language language) {
   std::string digits = fmt::format("{}", count);
   for (std::size_t at = digits.size(); at > 3; at -= 3)
-    digits.insert(at - 3, language == Language::English ? "," : ".");
+    digits.insert(at - 3, language == Language::English ? "," : " ");
   return digits;
 }
 
@@ -115,12 +116,11 @@ std::string in_words(const Contact& contact, Language language) {
   return syntax::message(finding_of(contact), {}, language);
 }
 
-/// `1.234,5 cm3`.
+/// `1,234.5 cm3`.
 static std::string cubic_centimeters(double volume, Language language) {
   const double tenths = std::round(volume / 100);
   const auto whole = static_cast<std::size_t>(tenths / 10);
-  return fmt::format("{}{}{:.0f} cm3", grouped(whole, language), language == Language::English ? '.' : ',',
-                     tenths - static_cast<double>(whole) * 10);
+  return fmt::format("{}.{:.0f} cm3", grouped(whole, language), tenths - static_cast<double>(whole) * 10);
 }
 
 std::string in_words(const MaterialReport& material, Language language) {

@@ -18,17 +18,46 @@ using simulation::RunFinding;
 /// A value as a message shows it: with as few digits, too. `unit` is 1 or a decimal part of it.
 static double rounded(double value, double unit) { return std::round(value / unit) / std::round(1 / unit); }
 
+namespace {
+
+/// How a finding tells lengths: in mm, or in inches where the block that it stands at is under G70. What a person
+/// types or compares with the program is in the unit of the program.
+class ShownLengths {
+ public:
+  explicit ShownLengths(bool is_in_inches)
+      : mm_per_unit_(dialect::mm_per_unit(is_in_inches)), step_(is_in_inches ? 0.0001 : 0.01) {}
+
+  double smallest() const { return step_; }
+  double of(double mm) const { return rounded(mm / mm_per_unit_, step_); }
+  /// Not lower than it is.
+  double at_least(double mm) const {
+    constexpr double kNoise = 1e-6;                                                      // Steps.
+    return std::ceil(mm / mm_per_unit_ / step_ - kNoise) / std::round(1 / step_) + 0.0;  // No -0.
+  }
+  geometry::Vec3 of(const geometry::Vec3& point) const { return {of(point.x()), of(point.y()), of(point.z())}; }
+
+ private:
+  double mm_per_unit_;
+  double step_;
+};
+
+}  // namespace
+
 /// The finding that tells what goes wrong with the material.
-static syntax::Finding finding_about_material(const Contact& contact, const geometry::Vec3& point) {
-  const double amount = rounded(std::max(0.0, -contact.distance), 0.01);
+static syntax::Finding finding_about_material(const Contact& contact) {
+  const ShownLengths lengths(contact.is_in_inches);
+  const geometry::Vec3 point = lengths.of(contact.frame.to_inner(contact.point));
+  const double amount = lengths.of(std::max(0.0, -contact.distance));
   syntax::Finding finding{.id = contact.id,
+                          .is_in_inches = contact.is_in_inches,
                           .values = {amount, point.x(), point.y(), point.z(), rounded(contact.time, 0.1)},
                           .names = {contact.who, contact.whom}};
-  if (contact.id == "cuts-nothing"_diag) finding.values[0] = std::round(amount);
-  if (contact.id == "cut-too-deep"_diag) finding.values[5] = rounded(contact.limit, 0.01);
+  if (contact.id == "cuts-nothing"_diag) finding.values[0] = contact.is_in_inches ? amount : std::round(amount);
+  if (contact.id == "cut-too-deep"_diag) finding.values[5] = lengths.of(contact.limit);
+  if (contact.id == "material-left"_diag) finding.values[4] = lengths.of(contact.limit);
   if (contact.volume) finding.values[5] = rounded(*contact.volume / 1000, 0.01);
   if (contact.enough) {
-    finding.values[5] = *contact.enough;
+    finding.values[5] = lengths.at_least(*contact.enough);
   } else if (contact.id == "rapid-in-material"_diag) {
     finding.cause = "rapid-in-material/at-any-height"_cause.number;
   } else if (contact.id == "holder-in-material"_diag) {
@@ -39,14 +68,14 @@ static syntax::Finding finding_about_material(const Contact& contact, const geom
 }
 
 syntax::Finding finding_of(const Contact& contact) {
-  constexpr double kSmallestAmount = 0.01;
-  geometry::Vec3 point = contact.frame.to_inner(contact.point);
-  for (double& each : point) each = rounded(each, 0.01);
-  if (contact.is_of_material && !contact.is_near_miss()) return finding_about_material(contact, point);
+  if (contact.is_of_material && !contact.is_near_miss()) return finding_about_material(contact);
+  const ShownLengths lengths(contact.is_in_inches);
+  const geometry::Vec3 point = lengths.of(contact.frame.to_inner(contact.point));
   const double signed_amount = contact.is_near_miss() ? contact.distance : -contact.distance;
-  const double amount = std::max(kSmallestAmount, rounded(signed_amount, 0.01));
+  const double amount = std::max(lengths.smallest(), lengths.of(signed_amount));
   return {
       .id = contact.id,
+      .is_in_inches = contact.is_in_inches,
       .values = {amount, point.x(), point.y(), point.z(), rounded(contact.time, 0.1)},
       .names = {contact.who, contact.whom},
       .described = contact.described.file.empty() ? dialect::GivenPlace() : dialect::GivenPlace::of(contact.described)};
@@ -144,9 +173,7 @@ VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier,
   if (result.ending == running::Ending::Until) verified.certificate->ended_before = result.line;
   verified.outcome.has_scene = true;
   verified.outcome.has_stock = verifier.material() != nullptr;
-  if (verified.material)
-    for (const auto& [line, end_time, removed] : verified.material->by_line)
-      verified.outcome.removed.push_back({line, removed.volume, removed.depth, removed.width});
+  if (verified.material) verified.outcome.removed = verified.material->by_line;
   add_findings(verified.outcome, verified.contacts, *verified.certificate, text);
   return verified;
 }
@@ -161,7 +188,7 @@ VerifiedRun verified_run(std::string_view text, running::RunOptions options, con
                                  [&](const simulation::TimedEvent& timed) {
                                    if (timed.move) {
                                      kinematics::MadeMove made(machine.motion, *timed.move);
-                                     findings.take(timed.event.line, made);
+                                     findings.take(timed.event, made);
                                    }
                                    verifier.take(timed);
                                  },

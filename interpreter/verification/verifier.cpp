@@ -34,21 +34,20 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
     certificate_.touching.emplace_back(scene.machine[each.moving].name, scene.machine[each.other].name);
   std::optional<removal::Workpiece> workpiece = workpiece_of(scene, origin, material);
   if (!workpiece) return;
+  if (workpiece->window) certificate_.window = workpiece->window;
+  // Where many programs are verified, the window may be beside the blank of one.
+  if (stock::bounds_of(workpiece->blank, workpiece->window).isEmpty()) return;
   if (const auto coarser = coarser_spacing(*workpiece)) {
     certificate_.gaps.push_back({.gap = Gap::ResolutionTooFine, .line = 0, .spacing = *coarser});
     return;
   }
   material_.emplace(*std::move(workpiece), machine, work_together_);
-  constexpr double kDiagonal = 1.4142135623730951;
-  if (material_->workpiece().window) certificate_.window = material_->workpiece().window;
-  certificate_.soft_disc = kDiagonal * material_->stock().spacing() + 2 * material_->skin();
-  certificate_.soft_depth = material_->skin() + double{stock::Tile::kTouch};
 }
 
 void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
   if (stretch.ends_move) ++certificate_.motions;
   stretches_.push_back(stretch);
-  waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1});
+  waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1, .is_in_inches = event.event.is_in_inches});
   if (material_) material_->take(stretch, event, frames_.back());
   if (stretches_.size() == kBatch) examine_waiting();
 }
@@ -56,7 +55,7 @@ void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent
 void Verifier::take(const simulation::TimedEvent& event) {
   if (const auto* const frame = std::get_if<running::FrameEvent>(&event.event.what)) frames_.push_back(frame->in_force);
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what))
-    mount(tool->tool, event.event.line, event.start + event.duration);
+    mount(tool->tool, event.event, event.start + event.duration);
   if (material_) material_->take(event);
 }
 
@@ -76,23 +75,23 @@ motion::Stretch rest_after(const motion::Stretch& stretch, const kinematics::Kin
   return rest;
 }
 
-void Verifier::mount(const execution::ToolCode& tool, std::size_t line, double time) {
+void Verifier::mount(const execution::ToolCode& tool, const running::Event& event, double time) {
   examine_waiting();
   log_.close_all();
   tool_ = tool;
   const MountedTool mounted = mounted_tool(scene_, machine_, tool);
   bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted, origin_);
-  if (material_) material_->mount(tool, cutting_tool(scene_, mounted), line, time, frames_.back());
+  if (material_) material_->mount(tool, cutting_tool(scene_, mounted), event, time, frames_.back());
   // What the tool touches where it is mounted.
   if (last_) {
     stretches_.push_back(rest_after(*last_, machine_.motion.kinematics, mounted.length, time));
-    waiting_.push_back({.line = line, .frame = frames_.size() - 1});
+    waiting_.push_back({.line = event.line, .frame = frames_.size() - 1, .is_in_inches = event.is_in_inches});
   }
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;
   if ((has_length && has_shape) || !known_gaps_.insert(tool).second) return;
   certificate_.gaps.push_back({.gap = has_length ? Gap::ToolWithoutShape : Gap::ToolWithoutLength,
-                               .line = line,
+                               .line = event.line,
                                .name = dialect::GivenName::of({mounted.name, mounted.name})});
 }
 
@@ -115,7 +114,7 @@ void Verifier::examine_waiting() {
     const auto place_of = [&](std::size_t stretch) -> StretchPlace {
       const std::size_t index = i * kPart + stretch;
       const WaitingStretch& waiting = waiting_[index];
-      return {examined_ + index, waiting.line, frames_[waiting.frame]};
+      return {examined_ + index, waiting.line, frames_[waiting.frame], waiting.is_in_inches};
     };
     log_.take(parts[i].encounters, place_of, bodies_, tool_);
     for (const std::size_t undecided : parts[i].undecided) {
@@ -143,6 +142,9 @@ void Verifier::finish() {
 
 void Verifier::finish_material() {
   material_->finish();
+  constexpr double kDiagonal = 1.4142135623730951;
+  certificate_.soft_disc = kDiagonal * material_->stock().spacing() + 2 * material_->skin();
+  certificate_.soft_depth = material_->skin() + double{stock::Tile::kTouch};
   std::int32_t mistakes = 0;
   for (const Contact& contact : contacts_) mistakes = std::max(mistakes, contact.mistake + 1);
   // One slip repeats with a tool at one height, or until the spindle turns.

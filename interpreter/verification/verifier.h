@@ -43,9 +43,10 @@ class Verifier {
   struct WaitingStretch {
     std::size_t line = 0;
     std::size_t frame = 0;  ///< Index of the frame in force.
+    bool is_in_inches = false;
   };
 
-  void mount(const execution::ToolCode& tool, std::size_t line, double time);
+  void mount(const execution::ToolCode& tool, const running::Event& event, double time);
   void examine_waiting();
   void finish_material();
 

@@ -145,11 +145,11 @@ class HoverWriter {
     static constexpr Text kFace = {"face frame", "s.d.r. di faccia"};
     static constexpr Text kWorkpiece = {"workpiece frame", "s.d.r. di pezzo"};
     static constexpr Text kMachine = {"machine frame", "s.d.r. di macchina"};
-    static constexpr Text kArc = {"center X{} Y{} Z{}, radius {} mm, sweep {}°, length {} mm",
-                                  "centro X{} Y{} Z{}, raggio {} mm, ampiezza {}°, lunghezza {} mm"};
+    static constexpr Text kArc = {"center X{0} Y{1} Z{2}, radius {3} {6}, sweep {4}°, length {5} {6}",
+                                  "centro X{0} Y{1} Z{2}, raggio {3} {6}, ampiezza {4}°, lunghezza {5} {6}"};
     static constexpr Text kTime = {"at the programmed feed {} s", "alla velocità programmata {} s"};
     static constexpr Text kRapid = {"at full rapid speed {} s", "alla massima velocità di rapido {} s"};
-    static constexpr Text kMotionLength = {"length {} mm", "lunghezza {} mm"};
+    static constexpr Text kMotionLength = {"length {} {}", "lunghezza {} {}"};
     static constexpr Text kPartial = {"`?`: that depends on the jumps before", "`?`: dipende dai salti precedenti"};
     const std::vector<LineRun> runs = queries::run_line_on_all_paths(snapshot_, line_number_);
     const auto is_unclear = [](const LineRun& run) {
@@ -158,10 +158,13 @@ class HoverWriter {
     if (runs.empty() || std::any_of(runs.begin(), runs.end(), is_unclear)) return;
     const auto all = [&](auto holds) { return std::all_of(runs.begin(), runs.end(), holds); };
     Agreement agreement(runs);
+    // As the program has it.
+    is_in_inches_ = all([](const LineRun& run) { return run.after.in_inches(); });
+    const double mm_per_unit = dialect::mm_per_unit(is_in_inches_);
     std::vector<std::string> rows;
     const auto row = [&](const Text& name, auto tip) {
       const auto coordinate = [&](int axis) {
-        return agreement.of([&](const LineRun& run) { return tip(run)[axis]; });
+        return agreement.of([&](const LineRun& run) { return tip(run)[axis] / mm_per_unit; });
       };
       rows.push_back(fmt::format("- {}: X{} Y{} Z{} B{} C{}", name.in(language_), coordinate(0), coordinate(1),
                                  coordinate(2), agreement.of([](const LineRun& run) { return run.move->to.b; }),
@@ -176,16 +179,17 @@ class HoverWriter {
     row(kMachine, [](const LineRun& run) -> geometry::Vec3 { return run.moved_in.to_machine(run.move->to.tip); });
     add(fmt::format("{}", fmt::join(rows, "\n")));
     const auto in_machine = [](const LineRun& run) { return execution::in_machine(*run.move, run.moved_in); };
-    const std::string length = agreement.of([&](const LineRun& run) { return tip_length(in_machine(run), run); });
+    const std::string length =
+        agreement.of([&](const LineRun& run) { return tip_length(in_machine(run), run) / mm_per_unit; });
     if (all([](const LineRun& run) { return run.move->kind == execution::MoveKind::Arc; })) {
       const auto center = [&](int axis) {
-        return agreement.of([&](const LineRun& run) { return run.move->center[axis]; });
+        return agreement.of([&](const LineRun& run) { return run.move->center[axis] / mm_per_unit; });
       };
       add(text(kArc, center(0), center(1), center(2),
-               agreement.of([&](const LineRun& run) { return in_machine(run).radius; }),
-               agreement.of([&](const LineRun& run) { return in_machine(run).sweep_deg; }), length));
+               agreement.of([&](const LineRun& run) { return in_machine(run).radius / mm_per_unit; }),
+               agreement.of([&](const LineRun& run) { return in_machine(run).sweep_deg; }), length, unit()));
     } else {
-      add(text(kMotionLength, length));
+      add(text(kMotionLength, length, unit()));
     }
     if (all([](const LineRun& run) { return run.move->feed > 0; })) {
       add(text(kTime, agreement.of([&](const LineRun& run) { return seconds_at_feed(in_machine(run)); })));
@@ -199,18 +203,18 @@ class HoverWriter {
 
   /// What the motion cuts from the blank.
   void describe_removed() {
-    static constexpr Text kRemoves = {"removes {} cm3, {} mm deep, width {} mm",
-                                      "asporta {} cm3, profondità {} mm, larghezza {} mm"};
+    static constexpr Text kRemoves = {"removes {0} cm3, {1} {3} deep, width {2} {3}",
+                                      "asporta {0} cm3, profondità {1} {3}, larghezza {2} {3}"};
     const auto removed = snapshot_.removed_on(line_number_);
     if (!removed) return;
-    add(text(kRemoves, shown(rounded_gap(removed->volume / 1000)), shown(rounded_gap(removed->depth)),
-             shown(rounded_gap(removed->width))));
+    add(text(kRemoves, shown(rounded_gap(removed->volume / 1000)), shown_gap(removed->depth), shown_gap(removed->width),
+             unit()));
   }
 
   /// What of the setup the motion hits or comes nearest to.
   void describe_nearest(const std::vector<LineRun>& runs) {
-    static constexpr Text kNearest = {"nearest: {}, {} mm", "più vicino: {}, {} mm"};
-    static constexpr Text kHits = {"hits {}, {} mm deep", "urta {}, entra di {} mm"};
+    static constexpr Text kNearest = {"nearest: {}, {} {}", "più vicino: {}, {} {}"};
+    static constexpr Text kHits = {"hits {}, {} {} deep", "urta {}, entra di {} {}"};
     static constexpr Text kWithoutTool = {" (without the tool, which has no shape)",
                                           " (senza l'utensile, che non ha forma)"};
     const std::optional<queries::NearestObstacle> nearest = queries::nearest_obstacle(snapshot_, line_number_, runs);
@@ -218,8 +222,19 @@ class HoverWriter {
     const verification::Neighbor& neighbor = nearest->neighbor;
     const double amount = neighbor.is_contact() ? -neighbor.distance : neighbor.clearance;
     const std::string name = as_written(neighbor.whom.in(language_));
-    add(text(neighbor.is_contact() ? kHits : kNearest, name, shown(rounded_gap(amount))) +
+    add(text(neighbor.is_contact() ? kHits : kNearest, name, shown_gap(amount), unit()) +
         (nearest->is_without_tool ? std::string(kWithoutTool.in(language_)) : ""));
+  }
+
+  /// The unit of lengths of the motion.
+  std::string_view unit() const { return dialect::unit_of_length(is_in_inches_, language_); }
+
+  /// A length in this unit, as exactly as it is known.
+  std::string shown_gap(double millimeters) const {
+    const double per_unit = dialect::mm_per_unit(is_in_inches_);
+    if (!is_in_inches_) return shown(rounded_gap(millimeters));
+    const double steps = millimeters < 1 ? 10'000 : 1'000;
+    return shown(std::max(1.0, std::round(millimeters / per_unit * steps)) / steps);
   }
 
   /// Millimeters as they are known: to a tenth, and to a hundredth close by.
@@ -404,6 +419,7 @@ class HoverWriter {
   const syntax::LineTree& line_;
   const Word& word_;
   const dialect::Language language_;
+  bool is_in_inches_ = false;  ///< The motion is under G70.
   std::vector<std::string> paragraphs_;
 };
 

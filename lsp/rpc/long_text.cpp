@@ -70,6 +70,14 @@ std::string ParsedMessage::text(const Json& string) const {
   return is_placeholder ? long_texts_[index].read() : here;
 }
 
+Json ParsedMessage::with_texts(Json part) const {
+  if (long_texts_.empty()) return part;
+  if (part.is_string()) return text(part);
+  if (part.is_structured())
+    for (Json& each : part) each = with_texts(std::move(each));
+  return part;
+}
+
 /// The value of the four hexadecimal digits after \u; U+FFFD if they are missing.
 static std::uint32_t code_unit(const char*& p, const char* end) {
   std::uint32_t unit = 0;

@@ -37,6 +37,8 @@ class ParsedMessage {
   Json json;
   /// The text of one of the strings in `json`, long or not.
   std::string text(const Json& string) const;
+  /// A part of `json` with the texts of all its strings.
+  Json with_texts(Json part) const;
 
  private:
   std::vector<LongText> long_texts_;

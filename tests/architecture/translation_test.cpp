@@ -33,6 +33,7 @@ const std::vector<Translation> kPages = {{"docs/README.md", "docs/it/README.md"}
                                          {"docs/isofmt.md", "docs/it/isofmt.md"},
                                          {"docs/isorun.md", "docs/it/isorun.md"},
                                          {"docs/isodiff.md", "docs/it/isodiff.md"},
+                                         {"docs/posts.md", "docs/it/posts.md"},
                                          {"docs/machine.md", "docs/it/macchina.md"},
                                          {"docs/configuration.md", "docs/it/configurazione.md"},
                                          {"docs/dialect.md", "docs/it/dialetto.md"},

@@ -93,7 +93,8 @@ class Documentation : public testing::TestWithParam<std::string> {};
 
 TEST_P(Documentation, CommandsRunAndAnswerAsShown) {
   const support::TemporaryFolder folder;
-  fs::copy(kRoot / "examples", folder.path("examples"), fs::copy_options::recursive);
+  for (const std::string name : {"examples", "posts"})
+    fs::copy(kRoot / name, folder.path(name), fs::copy_options::recursive);
   fs::create_directory(folder.path("build"));
   for (const Shown& shown : shown_in(kRoot / GetParam())) {
     const std::vector<std::string> words = words_of(shown.command);

@@ -39,6 +39,16 @@ const std::string kNew =
     "Y80\n"
     "M02\n";
 
+/// A program with a path of its own for each of the first values of VGPL.
+std::string branches(int count) {
+  std::string program = "M06 T101001\n";
+  for (int i = 1; i <= count; ++i) {
+    const std::string number = std::to_string(i);
+    program += "IF VGPL = " + number + " GOTO N" + number + "\nG00 X" + std::to_string(5 * i) + "\nN" + number + '\n';
+  }
+  return program + "M02\n";
+}
+
 /// Two programs in a folder.
 class IsodiffCommand : public testing::Test {
  protected:
@@ -91,9 +101,61 @@ TEST_F(IsodiffCommand, WritesJson) {
   EXPECT_EQ(json::parse(diff({"--format", "json", "old.iso", "old.iso"}).out).at("changes"), json::array());
 }
 
+/// The text of a block of data in a page.
+std::string block_of(const std::string& page, const std::string& name) {
+  const std::size_t begin = page.find('>', page.find("<script id=\"data-" + name + "\"")) + 1;
+  return page.substr(begin, page.find("</script>", begin) - begin);
+}
+
+TEST_F(IsodiffCommand, WritesAPageWithBothPrograms) {
+  const CommandResult result = diff({"--format", "html", "--output", "page.html", "old.iso", "new.iso"});
+  if (result.err.find("npm") != std::string::npos) GTEST_SKIP() << "this isodiff writes no page";
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.status, 1);
+  const std::string page = text_of_file(folder_.path("page.html"));
+  EXPECT_TRUE(page.find("<title>old.iso → new.iso</title>") != std::string::npos);
+  json expected = json::parse(diff({"--format", "json", "old.iso", "new.iso"}).out);
+  const json italian = json::parse(diff({"--format", "json", "--lang", "it", "old.iso", "new.iso"}).out);
+  for (std::size_t i = 0; i < expected["changes"].size(); ++i)
+    expected["changes"][i]["text"] = {{"en", expected["changes"][i]["text"]}, {"it", italian["changes"][i]["text"]}};
+  EXPECT_EQ(json::parse(block_of(page, "comparison")), expected);
+  EXPECT_EQ(json::parse(block_of(page, "old-facts")).at("name"), "old.iso");
+  EXPECT_EQ(json::parse(block_of(page, "facts")).at("name"), "new.iso");
+  EXPECT_EQ(block_of(page, "alignment"), "AQEH");  // Seven lines beside seven.
+  EXPECT_NE(block_of(page, "old-points"), block_of(page, "points"));
+  for (const char* const name : {"steps", "turns", "program", "old-steps", "old-program"})
+    EXPECT_TRUE(page.find("<script id=\"data-" + std::string(name) + "\"") != std::string::npos) << name;
+  // The path is the one of isorun's page.
+  run_command({"isorun", "--no-config", "--plot", folder_.path("plot.html"), folder_.path("new.iso")});
+  EXPECT_EQ(block_of(page, "points"), block_of(text_of_file(folder_.path("plot.html")), "points"));
+}
+
+TEST_F(IsodiffCommand, WritesNoPageToATerminal) {
+  const std::string log = folder_.path("log");
+  const std::string command =
+      "cd " + folder_.path() + " && python3 -c \"import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(['" +
+      ISOCNC_BIN_DIR "/isodiff', '--format', 'html', 'old.iso', 'new.iso'])))\" </dev/null >" + log + " 2>&1";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_THAT(text_of_file(log), testing::AnyOf(HasSubstr("--output"), HasSubstr("npm")));
+}
+
+TEST_F(IsodiffCommand, WritesNoPageOverAProgram) {
+  EXPECT_EQ(diff({"--format", "html", "--output", "new.iso", "old.iso", "new.iso"}).status, 2);
+  EXPECT_EQ(text_of_file(folder_.path("new.iso")), kNew);
+  EXPECT_THAT(diff({"--format", "html", "--all-paths", "--output", "page.html", "old.iso", "new.iso"}).err,
+              testing::AnyOf(HasSubstr("--vgpl"), HasSubstr("npm")));
+  // Nothing is left of a page where a program cannot be read.
+  EXPECT_EQ(diff({"--format", "html", "--output", "page.html", "old.iso", "none.iso"}).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("page.html")));
+  EXPECT_EQ(diff({"--format", "html", "--output", "none/page.html", "old.iso", "new.iso"}).status, 2);
+}
+
 TEST_F(IsodiffCommand, ItsJsonFitsItsSchema) {
   folder_.write("error.iso", kOld.substr(0, kOld.size() - 4) + "G01\n");
   folder_.write("added.iso", "G00 X10\n" + kOld);
+  folder_.write("branches.iso", branches(12));
+  folder_.write("register.iso", "M06 T101001\nIF V3 = 1 GOTO N5\nG00 X10\nN5 G00 X20 Y5\nM02\n");
   json documents;
   for (const char* const other : {"old.iso", "new.iso", "error.iso", "added.iso"}) {
     json both = json::parse(diff({"--format", "json", "old.iso", other}).out);
@@ -101,12 +163,22 @@ TEST_F(IsodiffCommand, ItsJsonFitsItsSchema) {
     both["changes"].push_back({{"kind", "other"}});
     documents.push_back({{"document", both}, {"valid", false}});
   }
+  for (std::vector<std::string> options : {std::vector<std::string>{"--all-paths", "branches.iso", "old.iso"},
+                                           {"--all-paths", "register.iso", "old.iso"},
+                                           {"--verify", ISOCNC_SOURCE_DIR "/examples/setups/panel.iso",
+                                            ISOCNC_SOURCE_DIR "/examples/setups/broken/panel.iso"}}) {
+    options.insert(options.begin(), {"--format", "json"});
+    json both = json::parse(diff(options).out);
+    documents.push_back({{"document", both}, {"valid", true}});
+    both["old"]["extents"]["X"].push_back(1);
+    documents.push_back({{"document", both}, {"valid", false}});
+  }
   const json schema = json::parse(text_of_file(ISOCNC_SOURCE_DIR "/docs/isodiff.schema.json"));
   const std::string task = folder_.write("task.json", json{{"schema", schema}, {"documents", documents}}.dump());
   const std::string log = folder_.path("log");
   const std::string command = "python3 " ISOCNC_SOURCE_DIR "/tests/support/validate.py " + task + " >" + log + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(text_of_file(log), "8 documents\n");
+  EXPECT_EQ(text_of_file(log), "14 documents\n");
 }
 
 /// Each way to write the examples makes the machine do the same.
@@ -210,6 +282,104 @@ TEST_F(IsodiffCommand, SaysWhereBothStop) {
   EXPECT_EQ(result.out, "no difference\nboth stop at an error: ISO026 on line 3, ISO026 on line 4\n");
 }
 
+TEST_F(IsodiffCommand, NamesFindingsThatAreNewOrGone) {
+  folder_.write("isocnc.json", R"({"machine": {"axes": {"X": {"min": 0, "max": 100.5}}}})");
+  const CommandResult result = diff({"old.iso", "new.iso"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr("findings\n"
+                                    "  new: line 5: error[E160]: the machine's X leaves its travel: it goes to 101, "
+                                    "and the travel ends at 100.5\n"
+                                    "2 differences\n"));
+  EXPECT_THAT(diff({"--lang", "it", "new.iso", "old.iso"}).out, HasSubstr("segnalazioni\n"
+                                                                          "  non più: prima riga 5: errore[E160]: "));
+  folder_.write("isocnc.json",
+                R"({"machine": {"axes": {"X": {"min": 0, "max": 100.5}}}, "lint": {"ignore": ["E160"]}})");
+  EXPECT_THAT(diff({"old.iso", "new.iso"}).out, testing::Not(HasSubstr("findings")));
+}
+
+/// A finding that differs alone makes no difference.
+TEST_F(IsodiffCommand, AnswersByItsStatusWhatTheMachineDoes) {
+  folder_.write("isocnc.json", R"({"machine": {"axes": {"X": {"min": 0, "max": 50}}}})");
+  folder_.write("comment.iso", ";isolint: disable E160\n" + kOld);
+  const CommandResult result = diff({"old.iso", "comment.iso"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, StartsWith("no difference\nfindings\n  gone: old line 5: error[E160]: "));
+}
+
+TEST_F(IsodiffCommand, ComparesContactsAndRemovedVolume) {
+  const std::string setups = ISOCNC_SOURCE_DIR "/examples/setups/";
+  EXPECT_THAT(diff({setups + "panel.iso", setups + "broken/panel.iso"}).out, testing::Not(HasSubstr("E152")));
+  const CommandResult verified = diff({"--verify", setups + "panel.iso", setups + "broken/panel.iso"});
+  EXPECT_EQ(verified.status, 1);
+  EXPECT_THAT(verified.out, HasSubstr("removed volume: "));
+  EXPECT_THAT(verified.out, HasSubstr("  new: line 11: error[E152]: the cutter of T101001 hits cup 2: 1 mm deep"));
+  const json both =
+      json::parse(diff({"--verify", "--format", "json", setups + "panel.iso", setups + "broken/panel.iso"}).out);
+  const json alone = json::parse(
+      run_command({"isorun", "--verify", "--json", setups + "broken/panel.iso"}, {.folder = folder_.path()}).out);
+  EXPECT_NEAR(both.at("new").at("removedVolume"), alone.at("verification").at("removedVolume").get<double>(), 1e-6);
+  EXPECT_EQ(both.at("new").at("feedMm"),
+            alone.at("feeds").at("lengthMm").get<double>() + alone.at("arcs").at("lengthMm").get<double>());
+  EXPECT_NEAR(both.at("new").at("tools")[0].at("time"), alone.at("tools")[0].at("seconds").get<double>(), 1e-6);
+  EXPECT_EQ(both.at("new").at("extents").at("X"), alone.at("extents").at("X"));
+  std::size_t contacts = 0;
+  for (const json& each : both.at("findings")) contacts += each.at("code") == "E152" ? 1 : 0;
+  EXPECT_EQ(contacts, alone.at("verification").at("contacts").size());
+  EXPECT_EQ(diff({"--verify", setups + "panel.iso", setups + "panel.iso"}).out, "no difference\n");
+  const CommandResult without = diff({"--verify", setups + "panel.iso", "old.iso"});
+  EXPECT_EQ(without.status, 1);
+  EXPECT_EQ(without.err, "isodiff: old.iso: no setup is for this program, so contacts and material are not compared\n");
+}
+
+TEST_F(IsodiffCommand, ComparesOnAllPaths) {
+  folder_.write("a.iso", "M06 T101001\nIF VGPL = 1 GOTO N5\nG00 X10\nN5 G00 X20 Y5\nM02\n");
+  folder_.write("b.iso", "M06 T101001\nIF VGPL = 1 GOTO N5\nG00 X10 Y1\nN5 G00 X20 Y5\nM02\n");
+  EXPECT_EQ(diff({"--vgpl", "1", "a.iso", "b.iso"}).status, 0);
+  const CommandResult result = diff({"--vgpl", "1", "--all-paths", "a.iso", "b.iso"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, StartsWith("VGPL = 1: no difference\n"
+                                     "VGPL <> 1:\n"
+                                     "  T101001\n"
+                                     "    line 3: moved by Y1\n"));
+  EXPECT_EQ(diff({"--all-paths", "a.iso", "a.iso"}).out, "all 2 combinations of paths: no difference\n");
+  EXPECT_EQ(diff({"--all-paths", "old.iso", "old.iso"}).out, "any VGPL: no difference\n");
+  const json both = json::parse(diff({"--vgpl", "1", "--all-paths", "--format", "json", "a.iso", "b.iso"}).out);
+  EXPECT_EQ(both.at("same"), false);
+  EXPECT_EQ(both.at("changes").size(), 1U) << "those of all paths";
+  EXPECT_EQ(both.at("paths")[0].at("same"), true);
+  EXPECT_EQ(both.at("paths")[1].at("values"), "VGPL <> 1");
+  EXPECT_EQ(both.at("notCompared"), nullptr);
+}
+
+/// What has not been compared may differ.
+TEST_F(IsodiffCommand, AdmitsWhatItHasNotCompared) {
+  folder_.write("a.iso", branches(12));
+  const CommandResult result = diff({"--all-paths", "a.iso", "a.iso"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.out, HasSubstr("no difference\nnot compared: VGPL = 8, VGPL = 9, "));
+  EXPECT_EQ(diff({"--all-paths", "a.iso", "old.iso"}).status, 1);
+  folder_.write("v.iso", "M06 T101001\nIF V3 = 1 GOTO N5\nG00 X10\nN5 G00 X20 Y5\nM02\n");
+  const CommandResult registers = diff({"--all-paths", "v.iso", "v.iso"});
+  EXPECT_EQ(registers.status, 2);
+  EXPECT_THAT(registers.out, HasSubstr("not compared: other values of V3, "));
+  EXPECT_EQ(diff({"--all-paths", "--set", "V3=1", "v.iso", "v.iso"}).status, 0);
+}
+
+TEST_F(IsodiffCommand, HasAHeadingForEachOperation) {
+  const std::string again = "M06 T101001\nG00 X10\nM06 T101002\nG00 X20\nM06 T101001\nG00 X30\nM02\n";
+  folder_.write("a.iso", again);
+  folder_.write("b.iso", std::string(again).replace(again.find("X30"), 3, "X31"));
+  EXPECT_THAT(diff({"a.iso", "b.iso"}).out, StartsWith("T101001, operation 3\n"));
+  EXPECT_THAT(diff({"--lang", "it", "a.iso", "b.iso"}).out, StartsWith("T101001, lavorazione 3\n"));
+}
+
+TEST_F(IsodiffCommand, HasColorsWhereTheyAreWanted) {
+  EXPECT_THAT(diff({"old.iso", "new.iso"}).out, testing::Not(HasSubstr("\x1b")));
+  EXPECT_THAT(diff({"--color", "always", "old.iso", "new.iso"}).out,
+              StartsWith("\x1b[1mT101001\x1b[0m\n  line 2: \x1b[33mS9000 M03 instead of S12000 M03\x1b[0m\n"));
+  EXPECT_EQ(diff({"--color", "sometimes", "old.iso", "new.iso"}).status, 2);
+}
+
 TEST_F(IsodiffCommand, RefusesMistakes) {
   const auto refusal = [&](std::vector<std::string> options) {
     options.insert(options.end(), {"old.iso", "new.iso"});
@@ -224,7 +394,7 @@ TEST_F(IsodiffCommand, RefusesMistakes) {
   EXPECT_EQ(refusal({"--vgpl", "x"}), "isodiff: --vgpl takes a plain number, such as -2.5, not x\n");
   EXPECT_EQ(refusal({"--set", "V31=1"}),
             "isodiff: --set takes a register and a plain number, V1=0 to V30=-2.5, not V31=1\n");
-  EXPECT_THAT(refusal({"--format", "html"}), HasSubstr("html"));
+  EXPECT_THAT(refusal({"--format", "pdf"}), HasSubstr("pdf"));
   const CommandResult result = diff({"old.iso", "none.iso"});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, StartsWith("isodiff: none.iso: "));

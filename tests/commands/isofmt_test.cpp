@@ -42,6 +42,27 @@ TEST(Isofmt, PrintsOneProgram) {
   EXPECT_EQ(format(std::string(kUntidy)), kTidy);
 }
 
+TEST(Isofmt, ProvesThatTheMachineDoesTheSame) {
+  EXPECT_EQ(format(std::string(kUntidy), {"--verify"}), kTidy);
+  const support::TemporaryFolder folder;
+  folder.write("register.iso", "m06t101001\nifv3=1goton5\ng00x10\nn5m02\n");
+  const CommandResult result = run_command({"isofmt", "-i", "--verify", "register.iso"}, {.folder = folder.path()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err,
+            "isofmt: register.iso: not formatted, since it is not certain that it does the same: an IF compares V3, "
+            "which the program does not set\n0 of 1 programs changed\n");
+  EXPECT_EQ(text_of_file(folder.path("register.iso")), "m06t101001\nifv3=1goton5\ng00x10\nn5m02\n");
+  std::filesystem::copy(ISOCNC_SOURCE_DIR "/examples", folder.path("examples"),
+                        std::filesystem::copy_options::recursive);
+  const CommandResult examples =
+      run_command({"isofmt", "-i", "--verify", "--word-order", "--decimals", "4", "--modal", "fold", "--renumber",
+                   "10:10", "--renumber-all", folder.path("examples/door-panel.iso"),
+                   folder.path("examples/five-axis.iso"), folder.path("examples/pocket.iso"),
+                   folder.path("examples/contour-compensation.iso"), folder.path("examples/option.iso")});
+  EXPECT_EQ(examples.status, 0) << examples.err;
+  EXPECT_THAT(examples.err, HasSubstr("5 of 5 programs changed"));
+}
+
 TEST(Isofmt, WantsAModeForSeveralPrograms) {
   const support::TemporaryFolder folder;
   folder.write("a.iso", kUntidy);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "run_command.h"
@@ -94,6 +95,11 @@ TEST_F(StockOfRuns, IsRefusedWithItsPlaceWhereItIsNone) {
   std::string other = good;
   other[8] = 7;  // The version follows the first eight bytes.
   folder_.write("other.stock", other);
+  std::string damaged = good;
+  const std::size_t height = good.rfind(std::string("\0\0\0\xC1", 4));  // -8 mm; now a hair lower.
+  ASSERT_NE(height, std::string::npos);
+  damaged[height] = 1;
+  folder_.write("damaged.stock", damaged);
   const auto said_of = [&](const std::string& stock) {
     folder_.write("second.setup.json", R"({"stock": )" + stock + "}");
     const CommandResult result = run({"--verify", "second.iso"});
@@ -106,6 +112,7 @@ TEST_F(StockOfRuns, IsRefusedWithItsPlaceWhereItIsNone) {
   EXPECT_THAT(said_of(R"({"from": "first.iso"})"), HasSubstr("first.iso is no file that isorun --stock-out"));
   EXPECT_THAT(said_of(R"({"from": "cut.stock"})"), HasSubstr("cut.stock is damaged, at byte "));
   EXPECT_THAT(said_of(R"({"from": "long.stock"})"), HasSubstr("long.stock is damaged, at byte "));
+  EXPECT_THAT(said_of(R"({"from": "damaged.stock"})"), HasSubstr("damaged.stock is damaged: its check sum is wrong"));
   EXPECT_THAT(said_of(R"({"from": "other.stock"})"), HasSubstr("other.stock was written by another version"));
   EXPECT_THAT(said_of(R"({"from": "../left.stock"})"), HasSubstr("must be in the folder of this file, or below"));
   EXPECT_THAT(said_of(R"({"from": "left.stock", "mesh": "a.stl"})"), HasSubstr("there is mesh already"));
@@ -184,6 +191,28 @@ TEST_F(StockOfRuns, IsRelatedToTheLineThatShapedIt) {
   EXPECT_THAT(italian.out, HasSubstr("= rapid.iso:10:1: il mandrino è stato fermato qui"));
 }
 
+/// isolint takes the resolution and the window that isorun takes, of all programs.
+TEST_F(StockOfRuns, IsCutByIsolintAsByIsorun) {
+  const auto isolint = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), "isolint");
+    return run_command(std::move(options), {.folder = folder_.path()});
+  };
+  folder_.write("rapid.iso", "M06 T101001\nS12000 M03\nG00 X50 Y50 Z5\nZ-8\nX150\nZ50\nM05\nM02\n");
+  folder_.write("rapid.setup.json", R"({"stock": {"box": [[0, 0, -20], [200, 100, 0]]}, "resolution": 0.5})");
+  EXPECT_THAT(isolint({"--verify", "rapid.iso"}).out, HasSubstr("E150"));
+  EXPECT_THAT(isolint({"--verify", "rapid.iso"}).err, HasSubstr("nor wider than 0.88 mm"));
+  EXPECT_THAT(isolint({"--verify", "--resolution", "0.2", "rapid.iso"}).err, HasSubstr("nor wider than 0.38 mm"));
+  const CommandResult beside = isolint({"--verify", "--window", "160,60,190,90", "rapid.iso", "first.iso"});
+  EXPECT_EQ(beside.status, 0) << beside.out;
+  EXPECT_THAT(beside.err, HasSubstr("the material outside X160 to X190"));
+  // Beside the blank of one of them.
+  EXPECT_EQ(isolint({"--verify", "--window", "500,0,600,100", "rapid.iso"}).status, 0);
+  const CommandResult wrong = isolint({"--verify", "--resolution", "0.009", "rapid.iso"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(wrong.err, "isolint: --resolution takes a plain number of mm from 0.01 to 100, such as 0.5, not 0.009\n");
+  EXPECT_EQ(isolint({"--resolution", "0.2", "rapid.iso"}).status, 2) << "without --verify";
+}
+
 TEST_F(StockOfRuns, RefusesWindowsAndResolutionsThatAreNone) {
   const auto said_of = [&](std::vector<std::string> options) {
     options.emplace_back("first.iso");
@@ -198,8 +227,13 @@ TEST_F(StockOfRuns, RefusesWindowsAndResolutionsThatAreNone) {
         << wrong;
   EXPECT_THAT(said_of({"--verify", "--window", "500,0,600,100"}),
               EndsWith("there is nothing of the stock, which reaches from X0 Y0 to X200 Y100\n"));
-  EXPECT_THAT(said_of({"--verify", "--resolution", "0.000001"}), HasSubstr("mm would fit"));
-  EXPECT_THAT(said_of({"--verify", "--resolution", "0"}), HasSubstr("--resolution takes a plain number of mm above 0"));
+  for (const char* const wrong : {"0", "0.000001", "0.009", "100.1", "200", "-1", "a", "1e-1", ""})
+    EXPECT_EQ(
+        said_of({"--verify", "--resolution", wrong}),
+        fmt::format("isorun: --resolution takes a plain number of mm from 0.01 to 100, such as 0.5, not {}\n", wrong));
+  EXPECT_EQ(run({"--verify", "--resolution", "100", "first.iso"}).status, 0);
+  folder_.write("first.setup.json", R"({"stock": {"box": [[0, 0, -20], [3000, 1500, 0]]}})");
+  EXPECT_THAT(said_of({"--verify", "--resolution", "0.01"}), HasSubstr("; 0.2 mm would fit"));
   EXPECT_THAT(said_of({"--stock-out", "left.obj"}), HasSubstr("ends in .stl or .stock"));
   EXPECT_THAT(said_of({"--verify", "--window", "0,0,10,10", "--stock-out", "part.stock"}),
               HasSubstr("part.stock: with --window only a part of the blank is cut"));

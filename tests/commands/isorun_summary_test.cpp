@@ -193,6 +193,15 @@ TEST(IsorunMachine, ReportsWhatIsAskedBeyondItsLimits) {
                               "alla riga 4\n"));
 }
 
+TEST(IsorunMachine, SaysThatItsLengthsAreInMillimetersWhereTheProgramHasInches) {
+  const auto summary = [](const std::string& unit) {
+    return run_command({"isorun", "-"}, {.input = "M06 T101001\n" + unit + "G00 X1\nM02\n"}).out;
+  };
+  EXPECT_THAT(summary("G70\n"), HasSubstr("\nlengths and positions: in mm, also of blocks under G70\n"
+                                         "final position (machine): X25.400 "));
+  EXPECT_THAT(summary(""), testing::Not(HasSubstr("in mm, also")));
+}
+
 TEST(IsorunMachine, ReportsHowFarItsTravelIsLeftAndWhereFirst) {
   const support::TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", R"({"machine": {"axes": {"X": {"min": 0, "max": 100}}}})");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "interpreter/comparison/alignment.h"
 #include "tests/comparison/compared.h"
 #include "tests/comparison/random_part.h"
 #include "tests/simulation/random_run.h"
@@ -20,6 +21,7 @@ std::uint64_t tries() {
 std::vector<BehaviorChange> swapped(std::vector<BehaviorChange> changes) {
   for (BehaviorChange& change : changes) {
     std::swap(change.old_lines, change.new_lines);
+    std::swap(change.old_start, change.new_start);
     std::swap(change.old_tool, change.new_tool);
     std::swap(change.old_value, change.new_value);
     std::swap(change.old_motions, change.new_motions);
@@ -458,6 +460,44 @@ TEST_F(LargeDifferences, TooLargeToLookInto) {
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].kind, ChangeKind::Shape);
   EXPECT_FALSE(all[0].distance);
+}
+
+/// Blocks that are quite different, between others that are the same: each alone is small enough to be looked into, and
+/// all together are not. The time is that of the budget, whatever their number.
+TEST(WorkBudget, BoundsTheWorkOfAllDifferences) {
+  support::Random random(9);
+  std::string old_program = "M06 T101001\nS12000 M03\n";
+  std::string new_program = old_program;
+  const auto motion = [&] {
+    return fmt::format("G01 X{} Y{} F2000\n", random.between(0, 500), random.between(0, 500));
+  };
+  constexpr int kBlocks = 32;
+  for (int block = 0; block < kBlocks; ++block) {
+    for (int i = 0; i < 60; ++i) {
+      const std::string same = motion();
+      old_program += same;
+      new_program += same;
+    }
+    for (int i = 0; i < 900; ++i) {
+      old_program += motion();
+      new_program += motion();
+    }
+  }
+  const std::vector<BehaviorChange> changes =
+      compare(recorded(old_program + "M02\n"), recorded(new_program + "M02\n"), {});
+  const auto are_looked_into =
+      std::count_if(changes.begin(), changes.end(), [](const BehaviorChange& each) { return each.distance; });
+  EXPECT_GE(changes.size(), static_cast<std::size_t>(kBlocks)) << "each has its place";
+  EXPECT_GT(are_looked_into, 10);
+  EXPECT_LT(are_looked_into, kBlocks - 5);
+}
+
+TEST(WorkBudget, IsNotSpentBySmallDifferences) {
+  WorkBudget budget{.window_pairs = 0, .gap_cells = 10'000, .distances = 0};
+  for (int i = 0; i < 1000; ++i) EXPECT_TRUE(budget.take_cells(50, 50));
+  EXPECT_TRUE(budget.take_cells(100, 100));
+  EXPECT_FALSE(budget.take_cells(51, 50));
+  EXPECT_TRUE(budget.take_cells(50, 50));
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -241,6 +243,62 @@ TEST(Comparison, ARapidThatTurnsTakesAnotherPath) {
   EXPECT_EQ(changes[1].new_value, "G00");
 }
 
+/// B goes from 0 to 60 degrees in one rapid or in two. The joints stand at the same places if X of the head does, which
+/// is 180 mm * sin(B) beside the tip: half of the turn is not half of the way of the tip.
+TEST(Comparison, ComparesTheWholePathOfRapidsThatTurn) {
+  const std::string start = kHead + "G49\n";
+  const double pi = std::acos(-1.0);
+  // The joints X and Z of the nose's pivot go straight from above the tip at B0 to where it is at B60.
+  const auto tip_at = [&](double part) {
+    const double b = 60 * part * pi / 180;
+    const double x = part * 180 * std::sin(pi / 3) - 180 * std::sin(b);
+    const double z = part * 180 * (std::cos(pi / 3) - 1) - 180 * (std::cos(b) - 1);
+    return fmt::format("X{:.5f} Z{:.5f} B{}", 10 + x, 40 + z, 60 * part);
+  };
+  const std::string one = start + "G00 B60\nM02\n";
+  const auto in_two = [&](const std::string& middle) { return start + "G00 " + middle + "\nX10 Z40 B60\nM02\n"; };
+  const std::string on_the_way = shown(changes_between(one, in_two(tip_at(0.5))));
+  const std::string beside = shown(changes_between(one, in_two("X10 Z40 B30")));
+  EXPECT_EQ(on_the_way, "") << tip_at(0.5);
+  EXPECT_NE(beside, "");
+  // Another machine leads the tip otherwise between the same ends.
+  simulation::TimedMachine other = machine_of_tests();
+  other.motion.kinematics.pivot += 50;
+  const std::vector<BehaviorChange> changes = compare(recorded(one), record(one, {}, other), {});
+  ASSERT_EQ(changes.size(), 1U) << shown(changes);
+  EXPECT_EQ(changes[0].kind, ChangeKind::Shape);
+  EXPECT_GT(changes[0].distance.value_or(0), 1);
+}
+
+/// In a frame that is turned each motion is moved otherwise, and all of them are one change.
+TEST(Comparison, NamesATurnedFrameOnce) {
+  const auto in_frame = [](const std::string& angle) {
+    return "G92 X0 Y0 Z0\nM06 T101001\nS12000 M03\nG29 X100 Y50 Z20 B" + angle +
+           " C0\nG00 X0 Y0 Z50\nZ5\nG01 Z-2 F2000\nX50\nG03 X50 Y30 I50 J15\nG01 X0\nY0\nG00 Z50\nG27\n"
+           "G00 X0 Y0 Z200\nM02\n";
+  };
+  // The tip is farthest from the origin of the frame at X65 Y15 Z-2 or X50 Z5: 2 * 65.03 * sin(5 degrees / 2).
+  for (const auto& [angle, distance] : {std::pair("35", 5.67), std::pair("30.02", 0.0227)}) {
+    const std::vector<BehaviorChange> changes = changes_between(in_frame("30"), in_frame(angle));
+    ASSERT_EQ(changes.size(), 1U) << shown(changes);
+    EXPECT_EQ(changes[0].kind, ChangeKind::Frame);
+    EXPECT_EQ(changes[0].old_cause, std::optional<std::size_t>(3));
+    EXPECT_EQ(changes[0].old_lines, (ChangedLines{4, 11}));
+    ASSERT_TRUE(changes[0].distance);
+    EXPECT_LT(*changes[0].distance, 1.001 * distance);
+    EXPECT_GT(*changes[0].distance, distance / 2) << "as far as a path may be beside its neighbors";
+    EXPECT_NE(in_words(changes[0], dialect::Language::English).find(": the frame of line 4 is turned"),
+              std::string::npos);
+  }
+  // A motion that is moved within the frame as well is one of its own.
+  std::string other = in_frame("35");
+  other.replace(other.find("X50\n"), 4, "X53\n");
+  const std::vector<BehaviorChange> both = changes_between(in_frame("30"), other);
+  EXPECT_TRUE(std::any_of(both.begin(), both.end(), [](const BehaviorChange& each) {
+    return each.kind != ChangeKind::Frame;
+  })) << shown(both);
+}
+
 /// A vertical stroke occurs many times and is no anchor; the place of each hole is one.
 TEST(Anchors, OccurOnceInEachRun) {
   std::string program = kHead;
@@ -277,6 +335,23 @@ TEST(Comparison, RecordsTotals) {
   EXPECT_NEAR(run.rapid_mm, std::hypot(10, 20, 40) + 45, 1e-9);
   EXPECT_EQ(run.extents[0].maximum, 100);
   EXPECT_EQ(run.extents[2].minimum, -5);
+}
+
+/// The lines at which the programs come to each change, from 1.
+std::string starts(const std::string& old_program, const std::string& new_program) {
+  std::string text;
+  for (const BehaviorChange& change : changes_between(old_program, new_program))
+    text += fmt::format("{} {}|{}\n", name_of(change.kind), change.old_start + 1, change.new_start + 1);
+  return text;
+}
+
+TEST(Comparison, NamesWhereEachProgramComesToAChange) {
+  EXPECT_EQ(starts(kSquare, square("X100\n", "\nX101\n")), "moved 5|6\n");
+  EXPECT_EQ(starts(kSquare, square("G00 Z40", "M100\nG00 Z40")), "function 9|9\n");
+  EXPECT_EQ(starts("\n" + square("G00 Z40", "M100\nG00 Z40"), kSquare), "function 10|9\n");
+  const std::string jumping = square("X100\n", "IF VGPL = 0 GOTO N7\nX100\nN7\n");
+  EXPECT_EQ(starts(square("X100\n", "IF VGPL = 1 GOTO N7\nX100\nN7\n"), "\n" + jumping), "path 5|6\n");
+  EXPECT_EQ(starts(kHead + "M02\n", kHead), "end 4|3\n") << "the last line without M02";
 }
 
 }  // namespace

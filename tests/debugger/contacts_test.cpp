@@ -131,6 +131,14 @@ TEST_F(Contacts, StopTheRunInsideTheBlock) {
   EXPECT_THAT(info.at("details").at("stackTrace").get<std::string>(), HasSubstr("E152"));
 }
 
+TEST_F(Contacts, AreToldInTheUnitOfTheirBlock) {
+  launch("M06 T101001\nS12000 M03\nG70\nG00 X0 Y0 Z2.4\nZ0.7874\nG01 X10 F200\nM02\n");
+  turn_on(client);
+  client.run("configurationDone");
+  const Json info = client.request("exceptionInfo", {{"threadId", 1}});
+  EXPECT_THAT(info.at("description").get<std::string>(), HasSubstr("hits post 1: 0.7874 in deep at X"));
+}
+
 TEST_F(Contacts, StopEachOnceForwardAndBackward) {
   launch(kProgram);
   turn_on(client);

@@ -97,6 +97,10 @@ class Installed(unittest.TestCase):
         # The files that the first steps name (docs/operator.md), and the pages in both languages.
         for file in ("examples/machine/isocnc.json", "docs/operator.md", "docs/it/operatore.md", "docs/it/macchina.md"):
             self.assertTrue((documents / file).is_file(), file)
+        posts = prefix / "share/isocnc/posts"
+        self.assertEqual(files_below(posts), [file for file in files_below(ROOT / "posts") if "__pycache__" not in file])
+        job = [ROOT / "tests/posts/jobs/pocket.json", "--origin", "350,220,-180", "--head", "1", "--holder", "1"]
+        self.assertIn("M06 T101001\n", must(sys.executable, posts / "freecad/isocnc_post.py", *job))
         self.assertEqual(pages_of_findings(prefix / "bin/isols"), {"file://" + str((documents / "docs/rules.md").resolve())})
         broken = subprocess.run(
             [prefix / "bin/isolint", "--lang", "en", documents / BROKEN], capture_output=True, text=True, check=False

@@ -2,7 +2,7 @@
 """Commits programs under the hooks of .pre-commit-hooks.yaml, by the real pre-commit.
 
 The hooks come from a repository made of our sources, as `repo:` entries name one. In place of CMake stands a program that
-"builds" by copying the isolint and isofmt given; what the script does before and after it is real.
+"builds" by copying the programs given; what the script does before and after it is real.
 
 usage: hooks_test.py FOLDER_OF_PROGRAMS. Exit status: 77 where there is no pre-commit.
 """
@@ -29,7 +29,7 @@ echo "$@" >>"$BUILD_LOG"
 [ "$1" = --build ] || exit 0
 sleep 0.5
 mkdir -p "$2/bin"
-cp "$PROGRAMS/isolint" "$PROGRAMS/isofmt" "$2/bin/"
+cp "$PROGRAMS/isolint" "$PROGRAMS/isofmt" "$PROGRAMS/isodiff" "$2/bin/"
 """
 
 programs = Path()
@@ -161,6 +161,26 @@ class Hooks(unittest.TestCase):
                 must("git", "add", name, cwd=self.shop)
                 self.assertEqual(self.commit().returncode, 0)
 
+    def test_what_programs_do_otherwise_is_shown(self) -> None:
+        for hook in ("isodiff", "isodiff-system"):
+            with self.subTest(hook=hook):
+                name = f"{hook}.iso"
+                self.use(hook)
+                self.stage(name, GOOD)
+                first = self.commit()
+                self.assertEqual(first.returncode, 0, first.stdout + first.stderr)
+                self.assertIn(f"{name} (new)\n", first.stdout + first.stderr)
+                must("git", "mv", name, f"moved {name}", cwd=self.shop)
+                self.stage(f"moved {name}", GOOD.replace("X10", "X11"))
+                self.write(f"moved {name}", BAD)  # In the work tree alone.
+                second = self.commit()
+                self.assertEqual(second.returncode, 0, second.stdout + second.stderr)
+                self.assertIn(f"{name} -> moved {name}\n", second.stdout + second.stderr)
+                self.assertIn("line 2: moved by X1\n", second.stdout + second.stderr)
+                self.write(f"moved {name}", GOOD)
+                must("git", "add", ".", cwd=self.shop)
+                self.commit()
+
     def test_only_what_is_staged_is_read(self) -> None:
         self.use("isolint")
         self.stage("staged.iso", GOOD)
@@ -290,6 +310,6 @@ if __name__ == "__main__":
         scratch = Path(folder)
         hooks = scratch / "isocnc"
         make_hooks()
-        for name in ("isolint", "isofmt"):
+        for name in ("isolint", "isofmt", "isodiff"):
             (scratch / "bin" / name).symlink_to(programs / name)
         unittest.main()

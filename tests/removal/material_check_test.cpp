@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/verification/verification_report.h"
 #include "tests/verification/scenes.h"
 
 namespace isocnc::verification {
@@ -72,6 +73,32 @@ TEST(Material, RapidsThroughIt) {
   // On it, beside it and above it.
   EXPECT_EQ(told(Bench().cut("G00 X250 Y150 Z50\nZ40\nX500\nZ50\n")), Lines());
   EXPECT_EQ(told(Bench().cut("G00 X250 Y89.9 Z50\nZ5\nX500\nZ50\n")), Lines());
+}
+
+TEST(Material, RapidsAndStoppedSpindlesAreFoundOnShortMotions) {
+  // Each motion is shorter than what the cutter counts as thinner.
+  const auto steps = [](const std::string& start) {
+    std::string moves = start;
+    for (double x = 286.05; x < 320; x += 0.05) moves += fmt::format("X{:.2f}\n", x);
+    return moves;
+  };
+  const VerifiedRun rapids = Bench().cut(steps("G00 X286 Y150 Z50\nZ5\n") + "Z50\n");
+  ASSERT_EQ(rapids.contacts.size(), 1u);
+  EXPECT_NEAR(rapids.contacts[0].distance, -35, 0.001);
+  EXPECT_NEAR(rapids.contacts[0].enough.value(), 40, 0.1);
+  // The same as in one motion, to within a dexel.
+  const VerifiedRun one = Bench().cut("G00 X286 Y150 Z50\nZ5\nX320\nZ50\n");
+  EXPECT_NEAR(removed(rapids), removed(one), 0.02 * removed(one));
+  // Down in steps, too: each goes as deep as it is long, and what would have been enough is above all of them.
+  std::string down = "G00 X350 Y150 Z40\n";
+  for (double z = 39.95; z > 35; z -= 0.05) down += fmt::format("Z{:.2f}\n", z);
+  const VerifiedRun plunge = Bench().cut(down + "Z50\n");
+  ASSERT_EQ(plunge.contacts.size(), 1u);
+  EXPECT_NEAR(plunge.contacts[0].enough.value(), 40, 0.11);
+  const VerifiedRun standing =
+      Bench().run("M06 T101001\n" + steps("G00 X286 Y150 Z50\nZ35\nG01 X286.01 F1000\n") + "G00 Z50\nM02\n");
+  ASSERT_EQ(standing.contacts.size(), 1u);
+  EXPECT_EQ(dialect::definition(standing.contacts[0].id).code, "E158");
 }
 
 TEST(Material, RapidsThroughWhatIsCutMeetNothing) {
@@ -140,7 +167,7 @@ TEST(Material, AHolderThatPloughsIsToldWhereItBegins) {
   EXPECT_EQ(told(Bench().cut(plough + "G00 Z50\n")), Lines{"E151 4 5.0 Z-20.0"});
   // Farther into the block in rapid, the cutter meets what the holder does not, and Z is that of the cut.
   EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z-25 F1000\nG00 X360\nZ50\n")),
-            (Lines{"E151 4 5.0 Z-20.0", "E150 5 35.0"}));
+            (Lines{"E151 4 5.0 Z-20.0", "E150 5 35.1"}));  // Deepest on the rounded corner.
   // Both begin with the same rapid: the cutter's tells all.
   EXPECT_EQ(told(Bench().cut("G00 X250 Y150 Z50\nZ-25\nX500\nZ50\n")), Lines{"E150 5 35.0 Z40.0"});
 }
@@ -244,6 +271,27 @@ TEST(Material, WallsThatWereCutBeforeAreNoDeepCut) {
   }
 }
 
+TEST(Material, WallsThatWereCutBeforeAreNoDeepCutWhileTheAxisTurns) {
+  Bench bench(MachineKind::Head);
+  bench.scene.tools[Shop::kTool].max_depth = 8;
+  std::string walls = "G49\n";
+  for (const int z : {34, 28, 22}) walls += fmt::format("G00 Z50\nX250 Y150 B0 C0\nZ{}\nG01 X450 F3000\n", z);
+  // Along the wall, 0.1 mm farther, while B turns a little about Y, in the plane of the way.
+  const VerifiedRun pass = bench.cut(walls + "G00 Z50\nX250 Y150.1\nZ22.2\nG01 X450 B0.5 F3000\nG00 Z50 B0\n");
+  EXPECT_EQ(told(pass), Lines());
+  // 2 mm of it are a deep cut.
+  EXPECT_EQ(told(bench.cut(walls + "G00 Z50\nX250 Y152\nZ22.2\nG01 X450 B0.5 F3000\nG00 Z50 B0\n")).size(), 1u);
+}
+
+TEST(Material, CornersWhereTheAxisTurnsLeaveMoreTheFartherFromTheTip) {
+  const auto depth_of = [](const std::string& moves) {
+    return *Bench(MachineKind::Head).cut("G00 X350 Y150 Z150\n" + moves).certificate->soft_depth;
+  };
+  const double at_rest = 0.5 / 8 + 0.002 + 0.02 + double{stock::Tile::kTouch};
+  EXPECT_NEAR(depth_of("X300\n"), at_rest, 1e-9);
+  EXPECT_NEAR(depth_of("X300 B5\n"), at_rest + std::hypot(60, 10) * 0.05 * pi / 180, 1e-9);
+}
+
 TEST(Material, ShortMotionsAreAsDeepAsLongOnes) {
   Bench bench;
   bench.scene.tools[Shop::kTool].max_depth = 8;
@@ -300,6 +348,20 @@ TEST(Material, LeftOnTheTarget) {
   EXPECT_EQ(told(strip), Lines{"W156 5 9.9"});
   // From Y180 to Y200, without what the tolerance takes.
   EXPECT_NEAR(*strip.contacts[0].volume, 100 * 20 * 10, 800);
+}
+
+TEST(Material, LeftOnTheTargetIsToldBeyondItsTolerance) {
+  Bench bench;
+  bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::flat_body(60, 60));
+  bench.scene.tools[Shop::kTool].holder.reset();
+  bench.box("", {300, 100, 0}, {400, 200, 30}, BodyRole::Target);
+  bench.scene.target_tolerance = 0.3;
+  const VerifiedRun run = bench.cut("G00 X200 Y150 Z50\nG01 Z30.5 F1000\nX500\nG00 Z50\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  const std::string english = in_words(run.contacts[0], Language::English);
+  EXPECT_NE(english.find(": up to 0.2 mm beyond its tolerance of 0.3 mm, at X"), std::string::npos) << english;
+  const std::string italian = in_words(run.contacts[0], Language::Italian);
+  EXPECT_NE(italian.find(": fino a 0.2 mm oltre la tolleranza di 0.3 mm, in X"), std::string::npos) << italian;
 }
 
 TEST(Material, WhatIsCutOffIsNotLeft) {
@@ -400,6 +462,40 @@ TEST(Material, WithoutAToolOrAStockNothingIsCut) {
   Bench bench;
   bench.scene.setup.clear();
   EXPECT_FALSE(bench.cut("G00 X250 Y150 Z5\nX500\n").material.has_value());
+}
+
+TEST(Material, AResolutionThatNobodyAskedForIsARoundOne) {
+  const auto resolution = [](double side) {
+    Shop shop;
+    shop.box("", {0, 0, 0}, {side, side, 20}, BodyRole::Stock);
+    return shop.run("M06 T101001\nG00 X0\nM02\n").material->stock.spacing();
+  };
+  EXPECT_NEAR(resolution(50), 0.1, 1e-9);
+  EXPECT_NEAR(resolution(200), 0.2, 1e-9);
+  EXPECT_NEAR(resolution(300), 0.25, 1e-9);
+  EXPECT_NEAR(resolution(370), 0.5, 1e-9);
+  EXPECT_NEAR(resolution(1000), 0.5, 1e-9);
+  // What would fit is round as well.
+  Bench bench;
+  bench.scene.setup.clear();
+  bench.box("", {0, 0, 0}, {3000, 1500, 20}, BodyRole::Stock);
+  bench.scene.resolution = 0.01;
+  const VerifiedRun run = bench.cut("G00 X0\n");
+  ASSERT_EQ(run.certificate->gaps.size(), 1u);
+  EXPECT_NEAR(run.certificate->gaps[0].spacing, 0.2, 1e-9);
+}
+
+TEST(Material, TotalsHaveThePointOfProgramsInBothLanguages) {
+  const VerifiedRun run = Bench().cut("G00 X250 Y150 Z50\nG01 Z35 F1000\nX450\nG00 Z50\n");
+  EXPECT_TRUE(in_words(*run.material, Language::English).starts_with("material: 10.0 cm3 removed of 400.0 cm3, "));
+  EXPECT_TRUE(in_words(*run.material, Language::Italian).starts_with("materiale: asportati 10.0 cm3 di 400.0 cm3, "));
+  Bench large;
+  large.scene.setup.clear();
+  large.box("", {0, 0, 0}, {800, 600, 18}, BodyRole::Stock);
+  const VerifiedRun panel = large.cut("G00 X0\n");
+  EXPECT_TRUE(in_words(*panel.material, Language::English).starts_with("material: 0.0 cm3 removed of 8,640.0 cm3, "));
+  EXPECT_TRUE(
+      in_words(*panel.material, Language::Italian).starts_with("materiale: asportati 0.0 cm3 di 8 640.0 cm3, "));
 }
 
 TEST(Material, AResolutionThatDoesNotFitIsRefused) {

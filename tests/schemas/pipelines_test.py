@@ -34,6 +34,8 @@ class Pipelines(unittest.TestCase):
         for name, schema in (
             ("action.yml", "github-action.json"),
             ("examples/ci/github-workflow.yml", "github-workflow.json"),
+            ("examples/ci/github-isodiff.yml", "github-workflow.json"),
+            ("examples/ci/gitlab-isodiff.yml", GITLAB),
             (".github/workflows/release.yml", "github-workflow.json"),
             (".gitlab-ci.yml", GITLAB),
             ("examples/ci/gitlab-ci.yml", GITLAB),

@@ -122,6 +122,26 @@ class Security(unittest.TestCase):
     def test_formatting_to_standard_output_writes_nothing(self):
         self.holds(self.watch("isofmt", "--stdout", self.program), reads=[self.program])
 
+    def test_comparing_files_starts_nothing(self):
+        other = self.folder / "part:$(touch PWNED).iso"
+        other.write_text(HOSTILE)
+        self.holds(self.watch("isodiff", self.program, other.name), reads=[self.program, other.name])
+        self.holds(self.watch("isodiff", "--git", "x.iso", self.program, ".", "100644", other.name, ".", "100644"),
+                   reads=[self.program, other.name])  # fmt: skip
+
+    @unittest.skipUnless(shutil.which("git"), "there is no git")
+    def test_comparing_revisions_starts_git_alone(self):
+        for command in (["init", "-q"], ["add", "."], ["-c", "user.name=T", "-c", "user.email=t@localhost", "commit", "-qm", "P"]):
+            subprocess.run(["git", *command], cwd=self.folder, check=True, capture_output=True)
+        for name in (f"HEAD:{self.program.name}", "HEAD:$(touch PWNED)", "$(touch PWNED):x", "--output=PWNED:x"):
+            run = self.watch("isodiff", "--", self.program, name)
+            self.assertIn(run.status, (0, 2), run.said)
+            started = [call for call in run.named("execve", "execveat") if call.endswith(" = 0")]
+            self.assertTrue(all(re.match(r'execve\("[^"]*/(isodiff|git)"', call) for call in started), started)
+            self.assertGreater(len(started), 1)
+            self.assertEqual([], run.named("socket", "connect", "bind", "listen"))
+            self.assertEqual([], [path for path in run.opened(to_write=True) if path != "/dev/null"])
+
     def test_running_writes_the_files_that_are_named(self):
         trace = self.folder / "trace.jsonl"
         run = self.watch("isorun", "--trace", trace, self.program)

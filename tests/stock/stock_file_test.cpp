@@ -5,6 +5,7 @@
 
 #include "cuts.h"
 #include "interpreter/stock/stock_file.h"
+#include "interpreter/text/hash.h"
 
 /// Stocks as bytes and back.
 namespace isocnc::stock::cuts {
@@ -16,6 +17,7 @@ const std::size_t kVersionAt = 8;
 const std::size_t kColumnsAt = 12;
 const std::size_t kBoundsAt = 20;
 const std::size_t kTilesAt = 68;
+const std::size_t kSumSize = 8;
 
 /// A plate of four tiles with cuts in some of them, undercuts and holes.
 Stock cut_plate() {
@@ -57,10 +59,15 @@ std::string with(std::string bytes, std::size_t at, Value value) {
   return bytes;
 }
 
+/// The bytes of a file with the check sum that fits them.
+std::string sealed(const std::string& bytes) {
+  return bytes + with(std::string(8, '\0'), 0, text::hash_on(text::kHashStart, bytes));
+}
+
 /// Bytes of one tile of 2 x 1 dexels that is not uniform, between the heights 0 and 10.
 std::string two_dexels(const std::string& tile) {
   const std::string uniform = write_stock(Stock(box({0, 0, 0}, {2, 1, 10}), 1));
-  return uniform.substr(0, kTilesAt) + tile;
+  return sealed(uniform.substr(0, kTilesAt) + tile);
 }
 std::string f32(float value) { return with(std::string(4, '\0'), 0, value); }
 std::string pair(float one, float other) { return std::string("\2\0", 2) + f32(one) + f32(other); }
@@ -91,7 +98,7 @@ TEST(StockFile, GoesOnAsTheStockThatWasWritten) {
 }
 
 TEST(StockFile, IsSmall) {
-  EXPECT_EQ(write_stock(Stock(kPlate, 0.7)).size(), kTilesAt + 12 * 9);
+  EXPECT_EQ(write_stock(Stock(kPlate, 0.7)).size(), kTilesAt + 12 * 9 + kSumSize);
   Stock slot(box({0, 0, -18}, {640, 640, 0}), 0.5);
   const RevolvedBody tool = flat(10);
   apply(slot, line(tool, {30, 30, -5}, {600, 500, -5}));
@@ -102,10 +109,27 @@ TEST(StockFile, RefusesOtherFiles) {
   EXPECT_EQ(problem_of("").kind, Kind::NotAStock);
   EXPECT_EQ(problem_of("isosto").kind, Kind::NotAStock);
   EXPECT_EQ(problem_of("solid part").kind, Kind::NotAStock);
-  const StockFileProblem other = problem_of(with(write_stock(cut_plate()), kVersionAt, std::uint32_t{2}));
+  const StockFileProblem other = problem_of(with(write_stock(cut_plate()), kVersionAt, std::uint32_t{3}));
   EXPECT_EQ(other.kind, Kind::OtherVersion);
-  EXPECT_EQ(other.version, 2U);
+  EXPECT_EQ(other.version, 3U);
   EXPECT_EQ(other.offset, kVersionAt);
+  // The first one, without a check sum.
+  const std::string bytes = write_stock(cut_plate());
+  const std::string old = with(bytes.substr(0, bytes.size() - kSumSize), kVersionAt, std::uint32_t{1});
+  EXPECT_EQ(problem_of(old).kind, Kind::OtherVersion);
+}
+
+TEST(StockFile, RefusesOneByteThatIsAnother) {
+  // Of a height that is possible, too.
+  const std::string bytes = write_stock(cut_plate());
+  std::size_t damaged = 0;
+  for (std::size_t at = 0; at < bytes.size(); at += at < 100 ? 7 : 4999)
+    for (const int bit : {0, 7}) {
+      std::string other = bytes;
+      other[at] = static_cast<char>(other[at] ^ (1 << bit));
+      damaged += problem_of(other).kind == Kind::Damaged ? 1 : 0;
+    }
+  EXPECT_GT(damaged, 10U);
 }
 
 TEST(StockFile, RefusesWhatIsCutShortOrGoesOn) {

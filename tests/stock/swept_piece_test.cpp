@@ -76,9 +76,9 @@ TEST(SweptPiece, MeetsNothingBelowATopThatIsClear) {
     const double step = random.between(0.05, 1);
     const double first = random.between(box.min().x() - 2, box.max().x());
     const double y = random.between(box.min().y() - 1, box.max().y() + 1);
-    std::array<float, SweptPiece::kTogether> tops;
-    std::array<float, SweptPiece::kTogether> clearances;
-    std::array<HeightInterval, SweptPiece::kTogether> chords;
+    std::array<float, kTogether> tops;
+    std::array<float, kTogether> clearances;
+    std::array<HeightInterval, kTogether> chords;
     for (std::size_t k = 0; k < tops.size(); ++k) {
       chords[k] = piece.chord(Vec2(first + static_cast<double>(k) * step, y));
       // Near the lower side, where what is clear ends, or anywhere.

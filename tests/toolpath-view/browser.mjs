@@ -53,14 +53,42 @@ export async function openBrowser() {
     await page.screenshot({ path: join(process.env.ISOCNC_SCREENSHOTS, `${name}.png`) });
   }
 
+  /** What a browser draws at last. */
+  const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  /** Where a place of the machine is in the picture. */
+  const project = (page, at) => page.evaluate((place) => globalThis.isocnc.view.project(place), at);
+
+  /** The line of the program that is shown as the present one. */
+  async function currentLine(page) {
+    await drawn(page);
+    return Number(await page.locator('#program .line.current .number').textContent());
+  }
+
+  /** What a picture, as base64, has where a place of the machine is: red, green, blue. */
+  async function colorIn(page, picture, place) {
+    const { x, y } = await project(page, place);
+    return page.evaluate(
+      async ([png, px, py]) => {
+        const bytes = Uint8Array.from(atob(png), (each) => each.charCodeAt(0));
+        const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+        const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+        context.drawImage(bitmap, 0, 0);
+        return [...context.getImageData(Math.round(px), Math.round(py), 1, 1).data.slice(0, 3)];
+      },
+      [picture, x, y],
+    );
+  }
+
   return {
     open,
     keep,
     problems,
     requests,
     close: () => browser.close(),
-    /** What a browser draws at last. */
-    drawn: (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))),
+    drawn,
+    project,
+    currentLine,
+    colorIn,
     picture: async (page) => (await page.locator('#stage').screenshot()).toString('base64'),
   };
 }

@@ -42,3 +42,36 @@ for (const [theme, { deviation, depth }] of Object.entries(palettes))
     for (let i = 1; i < depth.length; ++i) assert.ok(lightness[i] < lightness[i - 1], 'deeper is darker');
     assert.ok(contrast(depth[0], depth.at(-1)) >= 4);
   });
+
+/** What is seen without red, green or blue cones: Machado, Oliveira and Fernandes 2009, on linear light. */
+const kindsOfVision = {
+  all: [1, 0, 0, 0, 1, 0, 0, 0, 1],
+  protanopia: [0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116, 1.051998],
+  deuteranopia: [0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.01182, 0.04294, 0.968881],
+  tritanopia: [1.255528, -0.076749, -0.178779, -0.078411, 0.930809, 0.147602, 0.004733, 0.691367, 0.3039],
+};
+
+/** CIE L*a*b* of a color as it is seen. */
+function seen(color, m) {
+  const linear = color.map((each) => (each / 255 <= 0.04045 ? each / 255 / 12.92 : ((each / 255 + 0.055) / 1.055) ** 2.4));
+  const [r, g, b] = [0, 3, 6].map((row) => Math.min(1, Math.max(0, m[row] * linear[0] + m[row + 1] * linear[1] + m[row + 2] * linear[2])));
+  const [x, y, z] = [(0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.95047, 0.2126 * r + 0.7152 * g + 0.0722 * b, (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.08883].map((t) =>
+    t > 0.008856 ? Math.cbrt(t) : 7.787 * t + 16 / 116,
+  );
+  return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
+}
+
+for (const [theme, { background, neutral, marks }] of Object.entries(palettes))
+  test(`${theme}: what has become of a path is told apart with every kind of color vision`, () => {
+    const colors = { same: neutral, ...marks };
+    for (const color of Object.values(marks)) assert.ok(contrast(color, background) >= minimumContrast, `${color}: ${contrast(color, background)}`);
+    for (const [vision, matrix] of Object.entries(kindsOfVision))
+      for (const [one, first] of Object.entries(colors))
+        for (const [other, second] of Object.entries(colors)) {
+          if (one >= other) continue;
+          const [a, b] = [seen(first, matrix), seen(second, matrix)];
+          const distance = Math.hypot(...a.map((value, i) => value - b[i]));
+          // Removed paths are dotted besides, and lists have signs.
+          assert.ok(distance >= 25, `${one} and ${other} with ${vision}: ${distance.toFixed(1)}`);
+        }
+  });

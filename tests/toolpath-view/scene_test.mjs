@@ -5,7 +5,7 @@ import { openBrowser } from './browser.mjs';
 import { pageWith } from './run.mjs';
 import { certificate, contacts, program, sceneRecording } from './scene.mjs';
 
-const { open, close, drawn, keep, picture, problems } = await openBrowser();
+const { open, close, drawn, keep, picture, problems, project, currentLine, colorIn } = await openBrowser();
 
 const files = {};
 const pages = {};
@@ -18,26 +18,11 @@ after(close);
 
 const seek = (page, time) => page.evaluate((to) => globalThis.isocnc.player.seek(to), time);
 const bounds = (page, name) => page.evaluate((of) => globalThis.isocnc.view.sceneModel.boundsOf(of), name);
-const project = (page, at) => page.evaluate((place) => globalThis.isocnc.view.project(place), at);
-const currentLine = async (page) => {
-  await drawn(page);
-  return Number(await page.locator('#program .line.current .number').textContent());
-};
 
 /** What is drawn where a place of the machine is: red, green, blue. */
 async function colorAt(page, place) {
   await drawn(page);
-  const { x, y } = await project(page, place);
-  return page.evaluate(
-    async ([png, px, py]) => {
-      const bytes = Uint8Array.from(atob(png), (each) => each.charCodeAt(0));
-      const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
-      context.drawImage(bitmap, 0, 0);
-      return [...context.getImageData(Math.round(px), Math.round(py), 1, 1).data.slice(0, 3)];
-    },
-    [await picture(page), x, y],
-  );
+  return colorIn(page, await picture(page), place);
 }
 
 async function isAt(page, name, min, max) {

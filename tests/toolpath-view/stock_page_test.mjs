@@ -7,7 +7,7 @@ import { freshPage, recordingOf } from './run.mjs';
 import { program, sceneRecording } from './scene.mjs';
 import { encoded, panel, stockFacts } from './stock.mjs';
 
-const { open, close, drawn, keep, problems } = await openBrowser();
+const { open, close, drawn, keep, problems, project, currentLine, colorIn } = await openBrowser();
 
 /** What is drawn alone, without what lies above it; base64. */
 const picture = (of) =>
@@ -36,27 +36,12 @@ const seek = async (of, time) => {
 };
 /** The height of the stock's top where a dexel is, in mm. */
 const topAt = (of, x, y) => of.evaluate((dexel) => globalThis.isocnc.view.stockModel.timeline.dexels.tops[dexel] / 1000, Math.floor(y) * 200 + Math.floor(x));
-const project = (of, at) => of.evaluate((place) => globalThis.isocnc.view.project(place), at);
 const clickAt = async (of, at) => of.locator('#stage').click({ position: await project(of, at) });
-const currentLine = async (of) => {
-  await drawn(of);
-  return Number(await of.locator('#program .line.current .number').textContent());
-};
 
 /** What is drawn where a place of the machine is: red, green, blue. */
 async function colorAt(of, place) {
   await settled(of);
-  const { x, y } = await project(of, place);
-  return of.evaluate(
-    async ([png, px, py]) => {
-      const bytes = Uint8Array.from(atob(png), (each) => each.charCodeAt(0));
-      const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
-      context.drawImage(bitmap, 0, 0);
-      return [...context.getImageData(Math.round(px), Math.round(py), 1, 1).data.slice(0, 3)];
-    },
-    [await picture(of), x, y],
-  );
+  return colorIn(of, await picture(of), place);
 }
 
 test('the stock is cut up to the moment, forwards and back', async () => {

@@ -114,6 +114,22 @@ test('a program is formatted', async () => {
   await editor.command('File: Revert File');
 });
 
+test('what is typed is compared with what is saved; a page has no HEAD', async () => {
+  await editor.open('registers.iso');
+  await editor.goTo(6, 99);
+  await page.keyboard.type('0');
+  await lineBecomes(6, /F10000/, 'nothing is typed');
+  await editor.command('ISOCNC: Compare Behavior with Saved');
+  const lenses = () => editor.texts('.monaco-diff-editor .editor.modified .codelens-decoration');
+  await eventually(lenses, 'the lens is not there', (texts) => /F10000 instead of F1000/.test(texts.join()));
+  await editor.press('Control+F4');
+  await editor.open('registers.iso');
+  await editor.command('File: Revert File');
+  await editor.command('ISOCNC: Compare Behavior with HEAD');
+  await eventually(() => editor.texts('.notification-toast'), 'no message', (texts) => texts.some((text) => text.includes('There is no HEAD here')));
+  await editor.command('Notifications: Clear All Notifications');
+});
+
 test('the machine is that of isocnc.json, also when it changes', async () => {
   await editor.open('travel.iso');
   await editor.command('Problems: Focus on Problems View');

@@ -1,9 +1,10 @@
 /** Colors of the path. All sets can be distinguished with every kind of color vision, by lightness where hues fail. */
+import type { Mark } from './comparison';
 import type { Role, Severity } from './scene';
 import { Kind, type Toolpath } from './toolpath';
 
 export type Theme = 'light' | 'dark' | 'contrastLight' | 'contrastDark';
-export type Mode = 'tool' | 'feed' | 'kind' | 'time';
+export type Mode = 'change' | 'tool' | 'feed' | 'kind' | 'time';
 export const modes: Mode[] = ['tool', 'feed', 'kind', 'time'];
 
 /** Red, green, blue, 0 to 255. */
@@ -42,6 +43,8 @@ interface Palette {
   depth: Color[];
   /** Of marks where bodies touch. */
   contacts: Record<Severity, Color>;
+  /** Of what another program does otherwise. The old path is dotted besides. */
+  marks: Record<Exclude<Mark, 'same'>, Color>;
 }
 
 const colors = (...hex: string[]) => hex.map(color);
@@ -72,6 +75,7 @@ export const palettes: Record<Theme, Palette> = {
     depth: colors('#f4e3a1', '#e3a857', '#b5633f', '#7a2f4f', '#3b1550'),
     bodyEdge: color('#4a5260'),
     contacts: { error: color('#c62828'), warning: color('#b26a00'), info: color('#2f6fa8') },
+    marks: { moved: color('#1a8cff'), added: color('#006b40'), removed: color('#ed6710'), changed: color('#6b2f94') },
   },
   dark: {
     background: color('#14171c'),
@@ -98,6 +102,7 @@ export const palettes: Record<Theme, Palette> = {
     depth: colors('#f7e9b0', '#e8b469', '#c9704d', '#96466a', '#5a3a86'),
     bodyEdge: color('#c3cad5'),
     contacts: { error: color('#ff6b60'), warning: color('#f2b13d'), info: color('#6cb6ff') },
+    marks: { moved: color('#69a3fc'), added: color('#0bfe7e'), removed: color('#ef6906'), changed: color('#980efc') },
   },
   contrastLight: {
     background: color('#ffffff'),
@@ -124,6 +129,7 @@ export const palettes: Record<Theme, Palette> = {
     depth: colors('#f2dc8a', '#d9933a', '#9c4a2a', '#611d3f', '#270738'),
     bodyEdge: color('#000000'),
     contacts: { error: color('#b00020'), warning: color('#8a4b00'), info: color('#004f9e') },
+    marks: { moved: color('#0755fc'), added: color('#0d8938'), removed: color('#4a2403'), changed: color('#9d4dbf') },
   },
   contrastDark: {
     background: color('#000000'),
@@ -150,6 +156,7 @@ export const palettes: Record<Theme, Palette> = {
     depth: colors('#fff3c2', '#ffc873', '#e8875f', '#b95c86', '#7d58b8'),
     bodyEdge: color('#ffffff'),
     contacts: { error: color('#ff8078'), warning: color('#ffc14d'), info: color('#8cc8ff') },
+    marks: { moved: color('#357aaf'), added: color('#43fe89'), removed: color('#cd4b00'), changed: color('#a932fc') },
   },
 };
 
@@ -180,10 +187,16 @@ export function feedRange(path: Toolpath): { min: number; max: number } | null {
   return min <= max ? { min, max } : null;
 }
 
-/** The color of each step. */
-export function stepColors(path: Toolpath, mode: Mode, theme: Theme): (step: number) => Color {
+export function markColor(theme: Theme, mark: Mark): Color {
+  return mark === 'same' ? palettes[theme].neutral : palettes[theme].marks[mark];
+}
+
+/** The color of each step; `markOf` says what has become of it. */
+export function stepColors(path: Toolpath, mode: Mode, theme: Theme, markOf: (step: number) => Mark = () => 'same'): (step: number) => Color {
   const palette = palettes[theme];
   switch (mode) {
+    case 'change':
+      return (step) => markColor(theme, markOf(step));
     case 'tool':
       return (step) => toolColor(theme, path.stepTool[step]);
     case 'kind':

@@ -22,8 +22,8 @@ export class ToolModel {
     this.object.renderOrder = 3;
   }
 
-  /** From the tip to the spindle nose. */
-  dress(tool: Tool, theme: Theme, sceneSize: number): void {
+  /** From the tip to the spindle nose. `density` makes it more translucent. */
+  dress(tool: Tool, theme: Theme, sceneSize: number, density = 1): void {
     const shape = JSON.stringify([tool, theme]);
     if (shape === this.shape) return;
     this.shape = shape;
@@ -46,7 +46,7 @@ export class ToolModel {
     ] as const) {
       mesh.material.color.setHex(number(color));
       mesh.material.transparent = true;
-      mesh.material.opacity = opacity;
+      mesh.material.opacity = opacity * density;
     }
   }
 

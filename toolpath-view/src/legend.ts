@@ -1,18 +1,20 @@
 /** What the colors mean. */
-import { css, feedRange, palettes, toolColor, type Color, type Mode, type Theme } from './colors';
+import { marks, markOf, type Comparison } from './comparison';
+import { css, feedRange, markColor, palettes, toolColor, type Color, type Mode, type Theme } from './colors';
 import { element, svg } from './elements';
 import { clock, feed as shownFeed } from './format';
 import type { Texts } from './texts';
 import type { Toolpath } from './toolpath';
 
-/** A short piece of line: dashed for rapids. */
-function sample(color: Color, isDashed: boolean): SVGElement {
-  const stroke = { stroke: css(color), 'stroke-width': isDashed ? '1.5' : '2.4', 'stroke-dasharray': isDashed ? '5 3' : 'none' };
+/** A short piece of line: dashed for rapids, dotted for the path of an old program. */
+function sample(color: Color, dashes: 'none' | 'dashed' | 'dotted'): SVGElement {
+  const pattern = { none: 'none', dashed: '5 3', dotted: '2.5 2' }[dashes];
+  const stroke = { stroke: css(color), 'stroke-width': dashes === 'dashed' ? '1.5' : '2.4', 'stroke-dasharray': pattern };
   return svg('svg', { width: '28', height: '10', 'aria-hidden': 'true' }, svg('path', { d: 'M1 5h26', ...stroke }));
 }
 
 function entry(color: Color, text: string, isDashed = false): HTMLElement {
-  return element('div', { className: 'entry' }, sample(color, isDashed), text);
+  return element('div', { className: 'entry' }, sample(color, isDashed ? 'dashed' : 'none'), text);
 }
 
 export function scale(stops: Color[], min: string, max: string): HTMLElement[] {
@@ -21,8 +23,21 @@ export function scale(stops: Color[], min: string, max: string): HTMLElement[] {
   return [bar, element('div', { className: 'ends' }, element('span', {}, min), element('span', {}, max))];
 }
 
-export function legend(path: Toolpath, mode: Mode, theme: Theme, texts: Texts): HTMLElement[] {
+/** What has become of a path: dotted is how it was. */
+function changeLegend(comparison: Comparison, theme: Theme, texts: Texts): HTMLElement[] {
+  const found = new Set(comparison.changes.map(markOf));
+  const neutral = palettes[theme].neutral;
+  const texted = { same: texts.markSame, moved: texts.markMoved, added: texts.markAdded, removed: texts.markRemoved, changed: texts.markChanged };
+  const entries = marks.filter((mark) => mark === 'same' || found.has(mark)).map((mark) => {
+    const color = markColor(theme, mark);
+    return element('div', { className: 'entry' }, sample(color, mark === 'removed' ? 'dotted' : 'none'), texted[mark]);
+  });
+  return [...entries, element('div', { className: 'entry' }, sample(neutral, 'dotted'), texts.dottedOld)];
+}
+
+export function legend(path: Toolpath, mode: Mode, theme: Theme, texts: Texts, comparison: Comparison | null = null): HTMLElement[] {
   const palette = palettes[theme];
+  if (mode === 'change') return comparison ? changeLegend(comparison, theme, texts) : [];
   const dashed = entry(palette.neutral, texts.rapid, true);
   switch (mode) {
     case 'tool': {

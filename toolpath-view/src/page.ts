@@ -1,9 +1,10 @@
-/** The page of isorun --plot FILE.html: a run's path, program and time side by side. */
+/** The page of isorun --plot FILE.html and of isodiff --format html: paths, programs and time side by side. */
 import type { Theme } from './colors';
+import { Comparison, type ComparisonFacts } from './comparison';
 import { byId, element } from './elements';
 import { icon } from './icons';
+import { OneProgram, TwoPrograms, type PagePrograms } from './page_programs';
 import { Panel } from './panel';
-import { ProgramList } from './program_list';
 import { ProgramText } from './program_text';
 import { texts, type Language } from './texts';
 import { Toolpath, type Facts } from './toolpath';
@@ -19,34 +20,44 @@ function takeBytes(id: string): Uint8Array {
   return bytes;
 }
 
+function takePath(prefix: '' | 'old-'): Toolpath {
+  return new Toolpath({
+    facts: JSON.parse(byId(`data-${prefix}facts`).textContent ?? '') as Facts,
+    steps: takeBytes(`${prefix}steps`),
+    points: takeBytes(`${prefix}points`),
+    turns: takeBytes(`${prefix}turns`),
+    cuts: takeBytes(`${prefix}cuts`),
+  });
+}
+
+/** None in the page of one program. */
+function takeComparison(path: Toolpath): Comparison | null {
+  const facts = document.getElementById('data-comparison');
+  if (!facts) return null;
+  const recording = { facts: JSON.parse(facts.textContent ?? '') as ComparisonFacts, alignment: takeBytes('alignment') };
+  return new Comparison({ old: takePath('old-'), new: path }, recording);
+}
+
 class Page {
-  private readonly facts = JSON.parse(byId('data-facts').textContent ?? '') as Facts;
-  private readonly path = new Toolpath({
-    facts: this.facts,
-    steps: takeBytes('steps'),
-    points: takeBytes('points'),
-    turns: takeBytes('turns'),
-    cuts: takeBytes('cuts'),
-  });
-  private readonly program = new ProgramText(takeBytes('program'));
-  private readonly list = new ProgramList(byId('program'), this.program, (line) => {
-    const { start, end } = this.path.stepsOf(line);
-    return end > start;
-  });
+  private readonly path = takePath('');
+  private readonly comparison = takeComparison(this.path);
   private readonly panel: Panel;
-  private language: Language = this.facts.language;
+  private readonly programs: PagePrograms;
+  private language: Language = this.path.facts.language;
   private theme: Theme = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
 
   constructor() {
     document.documentElement.dataset.theme = this.theme;
+    const { comparison } = this;
     this.panel = new Panel(this.path, this.language, this.theme, ['head', 'stock']);
-    this.panel.onLine = (line) => this.list.show(line);
-    this.panel.onPick = (line) => this.list.show(line);
-    if (this.path.stepCount > 0) this.list.show(this.path.stepLine[this.panel.player.step]);
+    const program = new ProgramText(takeBytes('program'));
+    this.programs = comparison
+      ? new TwoPrograms(this.panel, comparison, { old: new ProgramText(takeBytes('old-program')), new: program })
+      : new OneProgram(this.panel, program);
     this.setUp();
     this.write();
     // For who looks at the page from outside: tests, and a curious reader's console.
-    Object.assign(window, { isocnc: { path: this.path, view: this.panel.view, player: this.panel.player } });
+    Object.assign(window, { isocnc: { path: this.path, comparison, view: this.panel.view, player: this.panel.player } });
     document.documentElement.dataset.ready = 'true';
   }
 
@@ -59,14 +70,14 @@ class Page {
       this.panel.setLanguage(this.language);
       this.write();
     });
-    this.list.onChoose = (line) => this.panel.choose(line);
     byId('program').addEventListener('keydown', (event) => {
       if (event.ctrlKey || event.altKey || event.metaKey || !['ArrowUp', 'ArrowDown'].includes(event.key)) return;
       event.preventDefault();
-      this.panel.walk(event.key === 'ArrowUp' ? -1 : 1);
+      this.programs.walk(event.key === 'ArrowUp' ? -1 : 1);
     });
-    document.title = this.facts.name;
-    byId('name').textContent = this.facts.name;
+    const { name } = this.path.facts;
+    const old = this.comparison?.paths.old.facts.name;
+    byId('name').textContent = document.title = old === undefined || old === name ? name : `${old} → ${name}`;
   }
 
   private setTheme(theme: Theme): void {
@@ -81,6 +92,7 @@ class Page {
     byId('language').lang = this.language === 'en' ? 'it' : 'en';
     byId('theme').title = theme;
     byId('theme').setAttribute('aria-label', theme);
+    this.programs.write(this.language);
   }
 }
 

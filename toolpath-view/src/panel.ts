@@ -1,5 +1,7 @@
 /** A path with all that one can choose about it, and its time: what the page of isorun and the panel of an editor share. It
  * fills the elements of page.html. */
+import type { Comparison } from './comparison';
+import { ComparisonControls } from './comparison_controls';
 import { modes, type Color, type Mode, type Theme } from './colors';
 import { ContactList } from './contact_list';
 import { byId, element } from './elements';
@@ -18,8 +20,8 @@ import { removedVolume, volumeText } from './stock_legend';
 import type { Snap } from './measuring';
 import { roles, severityOf, type Contact } from './scene';
 import { texts, type Language, type Texts } from './texts';
-import { Kind, type Steps, type Toolpath, type Vector } from './toolpath';
-import { layerOf, ToolpathView, type Layer, type Look } from './toolpath_view';
+import { Kind, type Facts, type Place, type Steps, type Toolpath, type Vector } from './toolpath';
+import { layerOf, ToolpathView, type Hit, type Layer, type Look } from './toolpath_view';
 
 const looks: Look[] = ['iso', 'top', 'front', 'side'];
 const layers: [Layer, keyof Texts][] = [
@@ -57,11 +59,14 @@ export class Panel {
   private readonly shown: Record<Layer, boolean>;
   private readonly littleMotion = matchMedia('(prefers-reduced-motion: reduce)');
   private totals: Totals;
+  /** Of the program that this one is compared with. */
+  private oldTotals: Totals | null = null;
   private selected: Steps | null = null;
   private mode: Mode = 'tool';
   private line = -1;
   private readonly contacts = new ContactList();
   private readonly hiding = new Hiding();
+  readonly compared: ComparisonControls;
   private readonly measuring: MeasureTool | null;
   private readonly stock: StockControls | null;
   private isStockChosen = false;
@@ -82,6 +87,8 @@ export class Panel {
     this.view = this.makeView();
     this.showStock();
     this.measuring = this.view && new MeasureTool(this.view, () => this.tipSnap());
+    this.compared = new ComparisonControls(this.view, this.player);
+    this.compared.setTheme(theme);
     this.stock = this.view && new StockControls(this.view, () => this.texts, () => this.theme);
     this.setUp();
     this.write();
@@ -113,16 +120,27 @@ export class Panel {
     this.showStock();
     this.view?.keep(this.hiding.chosen);
     this.measuring?.restart();
-    byId<HTMLInputElement>('scrubber').max = String(path.seconds);
     this.player.take(path);
+    byId<HTMLInputElement>('scrubber').max = String(this.player.seconds);
     const { start, end } = path.stepsOf(line);
     if (end > start && !this.player.isPlaying) this.player.seekStep(end - 1);
     this.write();
   }
 
+  /** Shows the path of another program beside this one, which is the new one of the comparison; null ends that. */
+  compare(comparison: Comparison | null): void {
+    this.oldTotals = comparison && totalsOf(comparison.paths.old);
+    this.compared.take(comparison);
+    this.setUpMode(comparison ? 'change' : this.mode === 'change' ? 'tool' : this.mode);
+    byId<HTMLInputElement>('scrubber').max = String(this.player.seconds);
+    this.write();
+    if (comparison) this.view?.fit();
+  }
+
   setTheme(theme: Theme, background?: Color): void {
     this.theme = theme;
     this.view?.setTheme(theme, background);
+    this.compared.setTheme(theme);
     this.writeLegend();
     this.stock?.writeLegend();
   }
@@ -169,6 +187,7 @@ export class Panel {
         this.player.seek(this.path.timeOn(hit.point, hit.part));
         this.onPick(this.path.stepLine[this.path.pointStep[hit.point]]);
       };
+      view.onPickOther = (hit) => this.pickOther(hit);
       view.onContact = (contact) => this.showContact(contact);
       view.onCut = (line) => {
         this.choose(line);
@@ -179,6 +198,15 @@ export class Panel {
     } catch {
       return null;
     }
+  }
+
+  /** Somebody clicked the old path of a comparison. */
+  private pickOther({ point, part }: Hit): void {
+    const { comparison } = this.compared;
+    if (!comparison) return;
+    this.player.isPlaying = false;
+    this.select(null);
+    this.player.seekMoment(comparison.clock.at('old', comparison.paths.old.timeOn(point, part)));
   }
 
   /** A blank that the setup describes is shown unless somebody hides it; a box around what is cut only if somebody asks. */
@@ -192,19 +220,23 @@ export class Panel {
     const { player } = this;
     byId('help').addEventListener('click', () => byId<HTMLDialogElement>('keys').showModal());
     byId('play').addEventListener('click', () => this.play());
-    byId('previous').addEventListener('click', () => this.seekStep(this.neighbor(-1)));
-    byId('next').addEventListener('click', () => this.seekStep(this.neighbor(1)));
+    byId('previous').addEventListener('click', () => this.step(-1));
+    byId('next').addEventListener('click', () => this.step(1));
     const speed = byId<HTMLSelectElement>('speed');
     for (const each of speeds) speed.append(element('option', { value: String(each) }, `${each}×`));
     speed.addEventListener('change', () => (player.speed = Number(speed.value)));
     speed.value = '1';
     const scrubber = byId<HTMLInputElement>('scrubber');
-    scrubber.max = String(this.path.seconds);
+    scrubber.max = String(this.player.seconds);
     scrubber.addEventListener('input', () => {
       player.isPlaying = false;
       this.select(null);
-      player.seek(Number(scrubber.value));
+      player.seekMoment(Number(scrubber.value));
     });
+    this.compared.onSeek = () => {
+      player.isPlaying = false;
+      this.select(null);
+    };
     this.contacts.onChoose = (contact) => this.showContact(contact, contact === this.contact);
     this.hiding.onChange = (filter) => {
       this.view?.keep(filter);
@@ -296,6 +328,7 @@ export class Panel {
     const isOther = steps !== this.selected;
     this.selected = steps;
     this.view?.select(steps);
+    this.compared.release();
     if (isOther) this.writeTotals();
   }
 
@@ -325,9 +358,21 @@ export class Panel {
     return step;
   }
 
-  private setMode(mode: Mode): void {
+  /** To the end of the next move, or the one before. */
+  private step(direction: 1 | -1): void {
+    if (!this.compared.comparison) return this.seekStep(this.neighbor(direction));
+    this.player.isPlaying = false;
+    this.select(null);
+    this.compared.step(direction);
+  }
+
+  private setUpMode(mode: Mode): void {
     this.mode = mode;
     this.view?.colorBy(mode);
+  }
+
+  private setMode(mode: Mode): void {
+    this.setUpMode(mode);
     byId<HTMLInputElement>(`mode-${mode}`).checked = true;
     this.writeLegend();
   }
@@ -357,6 +402,7 @@ export class Panel {
     this.hiding.write(this.path, texts);
     this.measuring?.write(texts);
     this.contacts.write(this.path.facts, this.path.seconds, this.language);
+    this.compared.write(this.language);
     this.lightContacts();
     if (!this.view) byId('stage').replaceChildren(element('p', { className: 'problem' }, texts.noWebgl));
     this.update();
@@ -365,24 +411,35 @@ export class Panel {
   /** How the run ended, and whether the machine hits something meanwhile. */
   private writeOutcome(): void {
     const { texts } = this;
-    const { ending, endLine, contacts = [] } = this.path.facts;
+    const { contacts = [] } = this.path.facts;
+    const ended = ({ ending, endLine }: Facts) => texts[ending].replace('{}', String(endLine + 1));
+    const { comparison } = this.compared;
+    const [now, old] = [ended(this.path.facts), comparison && ended(comparison.paths.old.facts)];
+    const ends = old !== null && old !== now ? `${texts.old}: ${old}. ${texts.new}: ${now}` : now;
     const count = contacts.length;
     const counted = count === 0 ? '' : `, ${(count === 1 ? texts.oneContact : texts.countedContacts).replace('{}', String(count))}`;
     const outcome = byId('outcome');
-    outcome.textContent = texts[ending].replace('{}', String(endLine + 1)) + counted;
-    outcome.className = contacts.some((contact) => severityOf(contact) === 'error') ? 'error' : ending;
+    outcome.textContent = ends + counted;
+    outcome.className = contacts.some((contact) => severityOf(contact) === 'error') ? 'error' : this.path.facts.ending;
   }
 
   private writeTotals(): void {
     const { texts, path } = this;
     const totals = this.selected ? totalsOf(path, this.selected) : this.totals;
-    const { min, max } = totals.extents ?? path;
-    const extents = ['X', 'Y', 'Z'].map((axis, i) => `${axis} ${coordinate(min[i])}…${coordinate(max[i])}`);
+    const old = this.selected ? null : this.oldTotals;
+    const extentOf = ({ extents }: Totals, axis: number) => {
+      const { min, max } = extents ?? path;
+      return `${coordinate(min[axis])}…${coordinate(max[axis])}`;
+    };
+    const shown = (text: (totals: Totals) => string) => {
+      const [now, before] = [text(totals), old && text(old)];
+      return before === null || before === now ? now : texts.was.replace('{}', () => now).replace('{}', () => before);
+    };
     const rows: [string, string][] = [
-      [this.selected ? texts.selection : texts.cycleTime, clock(totals.seconds)],
-      [texts.moves, String(totals.moves)],
-      [texts.cut, lengthText(totals.cut)],
-      [texts.rapidPath, lengthText(totals.rapid)],
+      [this.selected ? texts.selection : texts.cycleTime, shown(({ seconds }) => clock(seconds))],
+      [texts.moves, shown(({ moves }) => String(moves))],
+      [texts.cut, shown(({ cut }) => lengthText(cut))],
+      [texts.rapidPath, shown(({ rapid }) => lengthText(rapid))],
     ];
     const { stock } = path.facts;
     if (stock) {
@@ -390,7 +447,7 @@ export class Panel {
       rows.push([texts.removed, volumeText(removedVolume(stock, lines))]);
       if (!lines) rows.push([texts.remaining, volumeText(stock.volume)]);
     }
-    if (totals.moves > 0) rows.push([texts.extents, extents.join('  ')]);
+    if (totals.moves > 0) rows.push([texts.extents, ['X', 'Y', 'Z'].map((axis, i) => `${axis} ${shown((each) => extentOf(each, i))}`).join('  ')]);
     byId('totals').replaceChildren(...rows.map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, value))));
   }
 
@@ -428,7 +485,8 @@ export class Panel {
   }
 
   private writeModes(): void {
-    const radios = modes.map((mode) => {
+    const offered: Mode[] = this.compared.comparison ? ['change', ...modes] : modes;
+    const radios = offered.map((mode) => {
       const input = element('input', { type: 'radio', name: 'mode', id: `mode-${mode}`, checked: mode === this.mode });
       input.addEventListener('change', () => this.setMode(mode));
       return element('label', {}, input, this.texts[mode]);
@@ -457,7 +515,7 @@ export class Panel {
 
   private writeLegend(): void {
     const squares = this.view ? [element('div', { className: 'ends' }, this.texts.squares.replace('{}', lengthText(this.view.cell)))] : [];
-    byId('legend').replaceChildren(...legend(this.path, this.mode, this.theme, this.texts), ...squares);
+    byId('legend').replaceChildren(...legend(this.path, this.mode, this.theme, this.texts, this.compared.comparison), ...squares);
   }
 
   private writeKeys(): void {
@@ -474,6 +532,12 @@ export class Panel {
       [['N', texts.enter], texts.keyMeasurePlaces],
       [['H'], texts.keyHide],
       [['L'], texts.keyPath],
+      ...(this.compared.comparison
+        ? ([
+            [['D'], texts.keyChanges],
+            [['W'], texts.keyBlend],
+          ] as [string[], string][])
+        : []),
       ...(this.path.facts.contacts?.length ? [[['E'], texts.keyContacts] as [string[], string]] : []),
       ...(this.stock?.isThere
         ? ([
@@ -506,6 +570,7 @@ export class Panel {
     this.view?.setTime(this.shownTime);
     const line = place.step < 0 ? -1 : path.stepLine[place.step];
     if (this.contact >= 0 && player.time !== this.startOf(path.facts.contacts![this.contact])) this.contact = -1;
+    this.compared.update(player.isPlaying && this.littleMotion.matches);
     if (line !== this.line) {
       this.line = line;
       this.lightContacts();
@@ -517,35 +582,57 @@ export class Panel {
     play.title = player.isPlaying ? texts.pause : texts.play;
     play.setAttribute('aria-label', play.title);
     const scrubber = byId<HTMLInputElement>('scrubber');
-    scrubber.value = String(player.time);
-    scrubber.setAttribute('aria-valuetext', clock(player.time));
-    byId('clock').textContent = `${clock(player.time)} / ${clock(path.seconds)}`;
+    scrubber.value = String(player.moment);
+    scrubber.setAttribute('aria-valuetext', clock(player.moment));
+    const times = `${clock(player.time)} / ${clock(path.seconds)}`;
+    const { comparison, oldTime } = this.compared;
+    byId('clock').textContent = comparison ? `${texts.old} ${clock(oldTime)} / ${clock(comparison.paths.old.seconds)} · ${texts.new} ${times}` : times;
     this.writeReadout();
   }
 
   private writeReadout(): void {
     const { path, texts } = this;
     const place = path.at(this.shownTime);
-    const axes: [string, number][] = [['X', place.tip[0]], ['Y', place.tip[1]], ['Z', place.tip[2]]];
-    if (path.turned.length > 0) axes.push(['B', place.b], ['C', place.c]);
+    const { comparison, oldTime } = this.compared;
+    const old = comparison?.paths.old.at(oldTime);
+    const faint = (text: string) => element('span', { className: 'faint' }, text);
     // A contact's message names its place in the frame in force.
-    const rows: (Node | string)[] = [element('span', { className: 'faint' }, texts.machineFrame), '\n'];
-    for (const [axis, value] of axes) rows.push(element('span', { className: 'faint' }, axis), ` ${coordinate(value).padStart(10)}\n`);
+    const rows: (Node | string)[] = comparison ? [] : [faint(texts.machineFrame), '\n'];
+    const axes = ['X', 'Y', 'Z', ...(path.turned.length + (comparison?.paths.old.turned.length ?? 0) > 0 ? ['B', 'C'] : [])];
+    const values = ({ tip, b, c }: Place) => axes.map((_, i) => coordinate([...tip, b, c][i]));
+    if (comparison && old) {
+      // A line for each program, so that what they share is below each other.
+      const width = Math.max(texts.old.length, texts.new.length);
+      for (const [name, shownPath, at] of [[texts.old, comparison.paths.old, old], [texts.new, path, place]] as const) {
+        rows.push(faint(name.padEnd(width)));
+        values(at).forEach((value, i) => rows.push(faint(` ${axes[i]}`), value.padStart(9)));
+        rows.push(at.step >= 0 ? `  ${this.described(shownPath, at.step, false)}` : '', '\n');
+      }
+      rows.pop();
+    } else {
+      values(place).forEach((value, i) => rows.push(faint(axes[i]), ` ${value.padStart(10)}\n`));
+    }
     if (place.step >= 0) {
-      const kind = path.stepKind[place.step];
-      const names = { [Kind.Rapid]: texts.rapid, [Kind.Feed]: texts.feedMove, [Kind.Arc]: texts.arc, [Kind.Wait]: texts.waits };
-      const rate = path.stepFeed[place.step];
-      rows.push(`${texts.line} ${path.stepLine[place.step] + 1}: ${names[kind as keyof typeof names]}`);
-      if (rate > 0) rows.push(`, F ${feed(rate)}`);
+      if (!comparison) rows.push(this.described(path, place.step));
       const tool = path.facts.tools[path.stepTool[place.step]].name ?? texts.noTool;
       const removed = path.facts.stock && removedBy(path.facts.stock, path.stepLine[place.step]);
       if (removed) {
         const figures = [volumeText(removed.volume), `${removed.depth.toFixed(2)} mm`, `${removed.width.toFixed(2)} mm`];
         rows.push('\n', element('span', { id: 'removes' }, texts.cutsHere.replaceAll('{}', () => figures.shift()!)));
       }
-      rows.push('\n', element('span', { className: 'faint' }, `${tool}, ${(place.speed * 60).toFixed(0)} ${texts.unit}`));
+      rows.push('\n', faint(`${comparison ? `${texts.machineFrame}; ` : ''}${tool}, ${(place.speed * 60).toFixed(0)} ${texts.unit}`));
     }
     byId('readout').replaceChildren(...rows);
+  }
+
+  /** What a step does: `line 5: feed move, F 2000`; in short `line 5: F 2000`. */
+  private described(path: Toolpath, step: number, isLong = true): string {
+    const { texts } = this;
+    const names = { [Kind.Rapid]: texts.rapid, [Kind.Feed]: texts.feedMove, [Kind.Arc]: texts.arc, [Kind.Wait]: texts.waits };
+    const rate = path.stepFeed[step];
+    const name = names[path.stepKind[step] as keyof typeof names];
+    const parts = [...(isLong || !(rate > 0) ? [name] : []), ...(rate > 0 ? [`F ${feed(rate)}`] : [])];
+    return `${texts.line} ${path.stepLine[step] + 1}: ${parts.join(', ')}`;
   }
 
   private onKey(event: KeyboardEvent): void {
@@ -571,8 +658,8 @@ export class Panel {
       if (turns[key]) return turns[key];
     }
     if (key === 'Escape') return this.escape();
-    if (target.id === 'program' && key.startsWith('Page')) return undefined;
-    if (target.id === 'section-place' && /^(Arrow|Home|End|Page)/.test(key)) return undefined;
+    if (['program', 'change-list'].includes(target.id) && key.startsWith('Page')) return undefined;
+    if (['section-place', 'blend-part'].includes(target.id) && /^(Arrow|Home|End|Page)/.test(key)) return undefined;
     const isControl = target.matches('button, select, summary, input[type=radio], input[type=checkbox]');
     if (isControl && (key === ' ' || key === 'Enter' || key.startsWith('Arrow') || key === 'Home' || key === 'End')) return undefined;
     if (target.matches('select, input[type=number]')) return undefined;
@@ -584,10 +671,10 @@ export class Panel {
     const many = (step: number, sign: number) => Math.min(Math.max(step + sign * 9, -1), path.stepCount - 1);
     const keys: Record<string, () => void> = {
       ' ': () => this.play(),
-      ArrowLeft: () => this.seekStep(shiftKey ? many(this.neighbor(-1), -1) : this.neighbor(-1)),
-      ArrowRight: () => this.seekStep(shiftKey ? many(this.neighbor(1), 1) : this.neighbor(1)),
+      ArrowLeft: () => (shiftKey ? this.seekStep(many(this.neighbor(-1), -1)) : this.step(-1)),
+      ArrowRight: () => (shiftKey ? this.seekStep(many(this.neighbor(1), 1)) : this.step(1)),
       Home: () => this.seekStep(-1),
-      End: () => this.seekStep(path.stepCount - 1),
+      End: () => (this.compared.comparison ? this.toEnd() : this.seekStep(path.stepCount - 1)),
       ',': () => this.setSpeed(-1),
       '.': () => this.setSpeed(1),
       '1': () => view?.look('iso'),
@@ -605,9 +692,16 @@ export class Panel {
       l: () => this.showLayer('path', !this.shown.path),
       p: () => void this.savePicture(),
       '?': () => byId<HTMLDialogElement>('keys').showModal(),
+      ...(this.compared.comparison && { d: () => this.compared.walk(shiftKey ? -1 : 1), w: () => this.compared.walkBlends(shiftKey ? -1 : 1) }),
       ...this.stockKeys(shiftKey),
     };
     return keys[key.length === 1 ? key.toLowerCase() : key];
+  }
+
+  private toEnd(): void {
+    this.select(null);
+    this.player.isPlaying = false;
+    this.player.seekMoment(this.player.seconds);
   }
 
   private stockKeys(shiftKey: boolean): Record<string, () => void> {

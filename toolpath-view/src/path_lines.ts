@@ -58,6 +58,7 @@ const fragmentShader = /* glsl */ `
   uniform float aheadOpacity;
   uniform float dashedWidth;
   uniform float thickWidth;
+  uniform float dotted;  // 1 where all lines are dotted.
   out vec4 color;
 
   void main() {
@@ -72,6 +73,7 @@ const fragmentShader = /* glsl */ `
       float phase = fract((before + part * millimeters) * pixelsPerMillimeter / (9.0 * pixelRatio));
       if (phase > 0.6) discard;
     }
+    if (dotted > 0.5 && fract((before + part * millimeters) * pixelsPerMillimeter / (4.5 * pixelRatio)) > 0.55) discard;
     alpha *= part <= done && done > 0.0 ? opacity : aheadOpacity;
     if (alpha < 0.02) discard;
     color = vec4(lineStyle.rgb, alpha);
@@ -112,6 +114,7 @@ const thinFragmentShader = /* glsl */ `
   uniform float opacity;
   uniform float aheadOpacity;
   uniform int reached;
+  uniform float dotted;
   out vec4 color;
 
   void main() {
@@ -119,6 +122,7 @@ const thinFragmentShader = /* glsl */ `
     if (lineStyle.w < 0.6 && fract(way * pixelsPerMillimeter / (9.0 * pixelRatio)) > 0.6) discard;
     // Lines as thin as can be cannot be thicker: arcs have a gap now and then.
     if (lineStyle.w > 0.9 && fract(way * pixelsPerMillimeter / (14.0 * pixelRatio)) > 0.9) discard;
+    if (dotted > 0.5 && fract(way * pixelsPerMillimeter / (4.5 * pixelRatio)) > 0.55) discard;
     float alpha = point <= reached + 1 ? opacity : aheadOpacity;
     if (alpha < 0.02) discard;
     color = vec4(lineStyle.rgb, alpha);
@@ -207,6 +211,7 @@ export class PathLines {
         reachedPart: { value: 1 },
         opacity: { value: 1 },
         aheadOpacity: { value: 1 },
+        dotted: { value: 0 },
         heights: { value: new THREE.Vector2(-unlimited, unlimited) },
       },
     });

@@ -3,14 +3,26 @@ import type { Toolpath } from './toolpath';
 
 export const speeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100, 500, 1000];
 
+/** Another time than that of the path, which goes on where the path's stands still. */
+export interface PlayedClock {
+  seconds: number;
+  /** The path's time at a moment, and the first moment with a time. */
+  timeAt(moment: number): number;
+  momentAt(time: number): number;
+}
+
 export class Player {
   onChange: () => void = () => {};
   speed = 1;
+  /** Of the path. */
   time = 0;
+  /** By the clock; without one, the same as the time. */
+  moment = 0;
   /** What the tool is doing; -1 where nothing is ever done. */
   step: number;
   isPlaying = false;
   private last = 0;
+  private clock: PlayedClock | null = null;
 
   constructor(private path: Toolpath) {
     this.step = path.at(0).step;
@@ -22,10 +34,25 @@ export class Player {
     this.seek(this.time);
   }
 
+  /** Goes by another clock from now on, or by the path's own time. */
+  follow(clock: PlayedClock | null): void {
+    this.clock = clock;
+    this.seek(this.time);
+  }
+
+  /** How long all of it takes. */
+  get seconds(): number {
+    return this.clock?.seconds ?? this.path.seconds;
+  }
+
   seek(time: number): void {
-    this.time = Math.min(Math.max(time, 0), this.path.seconds);
-    this.step = this.path.at(this.time).step;
-    this.onChange();
+    const reached = Math.min(Math.max(time, 0), this.path.seconds);
+    this.show(reached, this.clock ? this.clock.momentAt(reached) : reached);
+  }
+
+  seekMoment(moment: number): void {
+    const reached = Math.min(Math.max(moment, 0), this.seconds);
+    this.show(this.clock ? this.clock.timeAt(reached) : reached, reached);
   }
 
   /** To the end of a step, where the tool stands as its line asks. */
@@ -37,8 +64,8 @@ export class Player {
   }
 
   toggle(): void {
-    this.isPlaying = !this.isPlaying && this.path.seconds > 0;
-    if (this.isPlaying && this.time >= this.path.seconds) this.time = 0;
+    this.isPlaying = !this.isPlaying && this.seconds > 0;
+    if (this.isPlaying && this.moment >= this.seconds) this.seekMoment(0);
     this.last = performance.now();
     if (this.isPlaying) requestAnimationFrame((now) => this.run(now));
     this.onChange();
@@ -46,10 +73,17 @@ export class Player {
 
   private run(now: number): void {
     if (!this.isPlaying) return;
-    const time = this.time + (Math.max(0, now - this.last) / 1000) * this.speed;
+    const moment = this.moment + (Math.max(0, now - this.last) / 1000) * this.speed;
     this.last = now;
-    this.isPlaying = time < this.path.seconds;
-    this.seek(time);
+    this.isPlaying = moment < this.seconds;
+    this.seekMoment(moment);
     if (this.isPlaying) requestAnimationFrame((next) => this.run(next));
+  }
+
+  private show(time: number, moment: number): void {
+    this.time = time;
+    this.moment = moment;
+    this.step = this.path.at(time).step;
+    this.onChange();
   }
 }

@@ -156,6 +156,13 @@ export class Toolpath {
     );
   }
 
+  /** How far B and C turn on the way to a point, degrees. */
+  turnTo(point: number): number {
+    if (this.turned.length === 0) return 0;
+    const at = 2 * point;
+    return Math.hypot(this.turned[at] - this.turned[at - 2], this.turned[at + 1] - this.turned[at - 1]);
+  }
+
   at(time: number): Place {
     const point = this.pointAt(time);
     const start = point - 1;
@@ -329,7 +336,7 @@ function measure(bytes: Uint8Array): { steps: number; points: number } {
 }
 
 /** The first of `count` growing values that is not less. */
-function lowerBound(values: { readonly [index: number]: number }, wanted: number, count: number): number {
+export function lowerBound(values: { readonly [index: number]: number }, wanted: number, count: number): number {
   let [from, to] = [0, count];
   while (from < to) {
     const middle = (from + to) >>> 1;

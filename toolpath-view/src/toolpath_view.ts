@@ -4,10 +4,12 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { number, palettes, stepColors, type Color, type Mode, type Theme } from './colors';
 import { listenForClicks, type Click } from './clicks';
+import type { Mark } from './comparison';
 import { hiddenSteps, noFilter, type Filter } from './filter';
 import { frames, grid, HeadModel, stock, ToolModel, travel, type Box } from './furniture';
 import { MeasureModel } from './measure_model';
 import { arcCenter, type Snap } from './measuring';
+import { OtherPath } from './other_path';
 import { PathLines } from './path_lines';
 import { codeOf, type Role } from './scene';
 import { SceneModel } from './scene_model';
@@ -37,6 +39,7 @@ const near = 9; // Pixels within which a click hits a line.
 const nearSnap = 12; // Pixels within which a measurement finds the end of a move or the corner of a body.
 const frameSize = 44; // Pixels.
 const edge = 24; // Pixels: nearer to the border of the picture, what is marked is out of sight.
+const smallestView = 5; // Millimeters that a part of the path is shown with at least.
 const nearView = 260; // Millimeters that a near view is high.
 const nothing: Steps = { start: -1, end: -1 };
 
@@ -45,9 +48,21 @@ export interface Hit {
   part: number;
 }
 
+/** Another path to draw, and what has become of each step of both. */
+export interface ComparedPath {
+  path: Toolpath;
+  markOf: (step: number) => Mark;
+  ownMarkOf: (step: number) => Mark;
+}
+
+/** The nearest line of a path, and what it is as near as. */
+type NearHit = Hit & { distance: number; depth: number };
+
 export class ToolpathView {
   /** Somebody clicked the path, or beside it. */
   onPick: (hit: Hit | null) => void = () => {};
+  /** Somebody clicked the path that this one is compared with. */
+  onPickOther: (hit: Hit) => void = () => {};
   /** Somebody clicked the mark of a contact. */
   onContact: (contact: number) => void = () => {};
   /** Somebody clicked the stock, where this line has cut it. */
@@ -89,6 +104,12 @@ export class ToolpathView {
   private lit: PathLines | null = null;
   private litSteps: Steps = nothing;
   private selected: Steps | null = null;
+  private other: OtherPath | null = null;
+  private isMarked = false;
+  private markOf: (step: number) => Mark = () => 'same';
+  private otherTime = 0;
+  /** How much of both paths is seen: 0 is the other one alone, 1 this one alone. */
+  private blended = 0.5;
   private mode: Mode = 'tool';
   private readonly shown: Record<Layer, boolean>;
   private background: Color;
@@ -172,6 +193,8 @@ export class ToolpathView {
     this.paint();
     this.litSteps = nothing;
     this.setTime(this.time);
+    this.setOtherTime(this.otherTime);
+    this.resizeLines();
   }
 
   /** Shows another path, as after an edit. One looks at it as before, or at all of it where there was none to look at. */
@@ -198,10 +221,51 @@ export class ToolpathView {
     if (wasEmpty) this.fit();
   }
 
-  /** Steps that are lit up in place of the one at the time shown; null is none. */
-  select(steps: Steps | null): void {
+  /** Steps that are lit up in place of the one at the time shown; null is none. Marked, they have the colors of what has become of them. */
+  select(steps: Steps | null, isMarked = false): void {
     this.selected = steps;
+    if (isMarked !== this.isMarked) this.litSteps = nothing;
+    this.isMarked = isMarked;
     this.setTime(this.time);
+  }
+
+  /** Draws the path of another program, too; null takes it away. */
+  compare(other: ComparedPath | null): void {
+    this.other?.dispose();
+    if (this.other) this.world.remove(this.other.tool.object);
+    this.other = other && new OtherPath(other.path, other.markOf, this.scene, this.center);
+    this.markOf = other?.ownMarkOf ?? (() => 'same');
+    if (this.other) {
+      this.world.add(this.other.tool.object);
+      for (const corner of [this.other.path.min, this.other.path.max])
+        this.extent = Math.max(this.extent, 2 * new THREE.Vector3(...corner).distanceTo(this.center));
+    }
+    this.paint();
+    this.resizeLines();
+    this.frameCamera();
+    this.setOtherTime(this.otherTime);
+    this.blend(this.blended);
+  }
+
+  /** How much of both paths is seen: 0 is the other one alone, 0.5 both, 1 this one alone. */
+  blend(part: number): void {
+    this.blended = part;
+    this.resizeLines();
+    this.setTime(this.time);
+  }
+
+  /** Moves the tool of the other path to where it is then. */
+  setOtherTime(time: number): void {
+    this.otherTime = time;
+    this.other?.setTime(time, this.size);
+    this.invalidate();
+  }
+
+  /** Steps of the other path that are lit up; null is none. */
+  selectOther(steps: Steps | null, isMarked = false): void {
+    this.other?.light(steps, isMarked);
+    this.resizeLines();
+    this.invalidate();
   }
 
   /** The stock's corners; null where they are unknown. */
@@ -332,7 +396,8 @@ export class ToolpathView {
     this.cutStock?.setTime(time);
     this.pose(place.tip, place.b, place.c);
     if (this.travel) this.travel.position.z = this.travel.userData.height - (tool.length ?? 0);
-    this.lines.set({ reached: place.point - 1, reachedPart: place.part, aheadOpacity: this.shown.ahead ? 0.28 : 0 });
+    this.lines.set({ reached: place.point - 1, reachedPart: place.part });
+    this.fade();
     this.light(this.selected ?? { start: place.step, end: place.step + 1 });
     this.invalidate();
   }
@@ -341,7 +406,7 @@ export class ToolpathView {
   pose(tip: Vector, b: number, c: number): void {
     const at = new THREE.Vector3(...tip);
     const turns = this.path.facts.turnsTool;
-    this.tool.object.visible = this.shown.tool && !this.isToolKnown;
+    this.tool.object.visible = this.shown.tool && !this.isToolKnown && this.opacity > 0;
     this.head.object.visible = this.shown.head && turns && this.path.turned.length > 0 && !this.hasSpindle;
     this.surroundings?.place(tip, b, c, this.toolLength);
     this.carryCutStock();
@@ -359,7 +424,7 @@ export class ToolpathView {
 
   /** Brings what is cut into view, or with `whole` all of the path and what surrounds it, from where one looks. */
   fit(whole = false): void {
-    const { min, max } = whole ? this.everything() : (this.path.work ?? this.path);
+    const { min, max } = whole ? this.everything() : this.worked();
     const middle = new THREE.Vector3(...min).add(new THREE.Vector3(...max)).multiplyScalar(0.5).sub(this.center);
     const offset = this.camera.position.clone().sub(this.controls.target);
     this.controls.target.copy(middle);
@@ -390,6 +455,13 @@ export class ToolpathView {
   approach(place: Vector): void {
     this.camera.zoom = Math.max(this.camera.zoom, this.size / nearView);
     this.aimAt(new THREE.Vector3(...place).sub(this.center));
+  }
+
+  /** Brings a part of the path into the middle, as large as it fits. */
+  frame({ min, max }: { min: Vector; max: Vector }): void {
+    const size = Math.max(Math.hypot(...max.map((value, i) => value - min[i])), smallestView / 2);
+    this.camera.zoom = this.size / (2 * size);
+    this.aimAt(new THREE.Vector3(...min).add(new THREE.Vector3(...max)).multiplyScalar(0.5).sub(this.center));
   }
 
   /** From now on, what is fitted into view leaves so many pixels free at the right. */
@@ -424,30 +496,35 @@ export class ToolpathView {
 
   /** The line that a place on the canvas shows, pixels of the page; of those that are as near the foremost. */
   pick(x: number, y: number, reach = 1): Hit | null {
-    const { path, center } = this;
+    const best = this.opacity > 0 ? this.pickOn(this.path, (step) => this.isShown(step), x, y, reach) : null;
+    return best && { point: best.point, part: best.part };
+  }
+
+  private pickOn(path: Toolpath, shows: (step: number) => boolean, x: number, y: number, reach: number): NearHit | null {
+    const { center } = this;
     if (path.stepCount === 0 || !this.shown.path) return null;
     const [width, height] = [this.container.clientWidth, this.container.clientHeight];
     this.camera.updateMatrixWorld();
     const m = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse).elements;
-    let best: (Hit & { distance: number; depth: number }) | null = null;
+    let best: NearHit | null = null;
     let [x0, y0, z0] = [0, 0, 0];
     for (let point = 0; point < path.pointCount; ++point) {
       const [px, py, pz] = [path.tips[3 * point] - center.x, path.tips[3 * point + 1] - center.y, path.tips[3 * point + 2] - center.z];
       const x1 = ((m[0] * px + m[4] * py + m[8] * pz + m[12] + 1) / 2) * width - x;
       const y1 = ((1 - (m[1] * px + m[5] * py + m[9] * pz + m[13])) / 2) * height - y;
       const z1 = m[2] * px + m[6] * py + m[10] * pz + m[14];
-      if (point > 0 && this.isShown(path.pointStep[point])) {
+      if (point > 0 && shows(path.pointStep[point])) {
         const [dx, dy] = [x1 - x0, y1 - y0];
         const square = dx * dx + dy * dy;
         const part = square > 1e-9 ? Math.min(1, Math.max(0, -(x0 * dx + y0 * dy) / square)) : 1;
         const distance = Math.hypot(x0 + part * dx, y0 + part * dy);
         const depth = z0 + part * (z1 - z0);
         const isBetter = !best || distance < best.distance - 2 || (distance < best.distance + 2 && depth < best.depth);
-        if (distance <= near * reach && isBetter && this.isAtShownHeight(point, part)) best = { point, part, distance, depth };
+        if (distance <= near * reach && isBetter && this.isAtShownHeight(path, point, part)) best = { point, part, distance, depth };
       }
       [x0, y0, z0] = [x1, y1, z1];
     }
-    return best && { point: best.point, part: best.part };
+    return best;
   }
 
   /** The place to measure that a place on the canvas shows, pixels of the page: ends of moves, centers of arcs, corners of boxes and
@@ -470,7 +547,7 @@ export class ToolpathView {
     for (let step = 0; step < path.stepCount && this.shown.path; ++step) {
       if (!this.isShown(step)) continue;
       for (const point of [path.stepStart[step], path.stepStart[step + 1]]) {
-        if (!this.isAtShownHeight(point, 1)) continue;
+        if (!this.isAtShownHeight(path, point, 1)) continue;
         const [px, py, pz] = [path.tips[3 * point], path.tips[3 * point + 1], path.tips[3 * point + 2]];
         offer(px, py, pz, () => ({ at: [px, py, pz], kind: 'end', line: path.stepLine[step] }));
       }
@@ -498,6 +575,7 @@ export class ToolpathView {
     this.controls.dispose();
     this.lines.dispose();
     this.lit?.dispose();
+    this.other?.dispose();
     this.surroundings?.dispose();
     this.cutStock?.dispose();
     this.measure.dispose();
@@ -531,17 +609,44 @@ export class ToolpathView {
     return kind !== Kind.Wait && (kind !== Kind.Rapid || this.shown.rapids) && !this.hidden?.[step];
   }
 
-  private isAtShownHeight(point: number, part: number): boolean {
+  private isAtShownHeight(path: Toolpath, point: number, part: number): boolean {
     const { minZ, maxZ } = this.filter;
     if (minZ === -Infinity && maxZ === Infinity) return true;
-    const end = this.path.tips[3 * point + 2];
-    const start = point > 0 ? this.path.tips[3 * point - 1] : end;
+    const end = path.tips[3 * point + 2];
+    const start = point > 0 ? path.tips[3 * point - 1] : end;
     const height = start + part * (end - start);
     return height >= minZ - 1e-3 && height <= maxZ + 1e-3;
   }
 
   private paint(): void {
-    this.lines.paint(stepColors(this.path, this.mode, this.theme), (step) => this.isShown(step));
+    this.lines.paint(stepColors(this.path, this.mode, this.theme, this.markOf), (step) => this.isShown(step));
+    this.other?.paint({ mode: this.mode, theme: this.theme, rapids: this.shown.rapids, filter: this.filter });
+  }
+
+  private get opacity(): number {
+    return this.other ? Math.min(1, 2 * this.blended) : 1;
+  }
+  private get otherOpacity(): number {
+    return Math.min(1, 2 * (1 - this.blended));
+  }
+
+  /** Where two paths are compared, what is to come is no less to be seen than what is done. */
+  private fade(): void {
+    const { opacity, otherOpacity, other } = this;
+    const ahead = this.shown.ahead ? 1 : 0;
+    this.tip.visible = opacity > 0;
+    this.lines.set({ opacity, aheadOpacity: other ? opacity * ahead : 0.28 * ahead });
+    if (!other) return;
+    other.lines.mesh.visible = this.shown.path;
+    other.lines.set({ opacity: otherOpacity, aheadOpacity: otherOpacity * ahead });
+    other.tool.object.visible = this.shown.tool && otherOpacity > 0;
+  }
+
+  /** What is fitted into view. */
+  private worked(): { min: Vector; max: Vector } {
+    const boxes = [this.path, ...(this.other ? [this.other.path] : [])].map((path) => path.work ?? path);
+    const extreme = (pick: (...values: number[]) => number, end: 'min' | 'max') => [0, 1, 2].map((i) => pick(...boxes.map((box) => box[end][i]))) as Vector;
+    return { min: extreme(Math.min, 'min'), max: extreme(Math.max, 'max') };
   }
 
   /** Makes a model of what surrounds the path, unless there is one of the same. */
@@ -608,6 +713,7 @@ export class ToolpathView {
 
   private everything(): { min: Vector; max: Vector } {
     const box = new THREE.Box3(new THREE.Vector3(...this.path.min), new THREE.Vector3(...this.path.max));
+    if (this.other) box.expandByPoint(new THREE.Vector3(...this.other.path.min)).expandByPoint(new THREE.Vector3(...this.other.path.max));
     if (this.surroundings) box.union(this.surroundings.bounds());
     if (this.cutStock && this.shown.stock) box.union(this.cutStock.bounds());
     return { min: box.min.toArray(), max: box.max.toArray() };
@@ -621,9 +727,20 @@ export class ToolpathView {
     const contact = this.contactAt(x, y, reach);
     if (contact !== null) return this.onContact(contact);
     const hit = this.pick(x, y, reach);
+    const other = this.pickOther(x, y, reach);
+    if (other) return this.onPickOther(other);
     const cut = this.stockAt(x, y);
     if (!cut || (hit && !this.isHidden(this.placeOn(hit), cut))) this.onPick(hit);
     else if (cut.line >= 0) this.onCut(cut.line);
+  }
+
+  /** The line of the other path that a place on the canvas shows, where none of this one is as near. */
+  private pickOther(x: number, y: number, reach: number): Hit | null {
+    const { other } = this;
+    if (!other || this.otherOpacity === 0) return null;
+    const hit = this.pickOn(other.path, (step) => other.shows(step), x, y, reach);
+    const own = this.opacity > 0 ? this.pickOn(this.path, (step) => this.isShown(step), x, y, reach) : null;
+    return hit && (!own || hit.distance < own.distance - 2) ? hit : null;
   }
 
   /** The stock that a place on the canvas shows. */
@@ -743,7 +860,8 @@ export class ToolpathView {
     this.lit = new PathLines(this.path, this.center, start, end);
     this.lit.alwaysInFront = true;
     this.lit.keepHeights(this.filter.minZ, this.filter.maxZ);
-    this.lit.paint(() => palettes[this.theme].highlight, (step) => this.isShown(step));
+    const { highlight } = palettes[this.theme];
+    this.lit.paint(this.isMarked ? stepColors(this.path, 'change', this.theme, this.markOf) : () => highlight, (step) => this.isShown(step));
     this.scene.add(this.lit.mesh);
     this.resizeLines();
   }
@@ -774,9 +892,11 @@ export class ToolpathView {
   private resizeLines(): void {
     const ratio = this.renderer.getPixelRatio();
     const { clientWidth, clientHeight } = this.container;
-    for (const lines of [this.lines, this.lit]) lines?.resize(clientWidth * ratio, clientHeight * ratio);
-    this.lines.set({ width: 1.6 * ratio, dashedWidth: 1.2 * ratio, thickWidth: 2.6 * ratio, pixelRatio: ratio });
-    this.lit?.set({ width: 4.5 * ratio, dashedWidth: 3 * ratio, thickWidth: 5 * ratio, pixelRatio: ratio, opacity: 0.9, aheadOpacity: 0.9 });
+    for (const lines of [this.lines, this.lit, this.other?.lines, this.other?.litLines]) lines?.resize(clientWidth * ratio, clientHeight * ratio);
+    for (const lines of [this.lines, this.other?.lines])
+      lines?.set({ width: 1.6 * ratio, dashedWidth: 1.2 * ratio, thickWidth: 2.6 * ratio, pixelRatio: ratio });
+    for (const [lit, opacity] of [[this.lit, 0.9 * this.opacity], [this.other?.litLines, 0.9 * this.otherOpacity]] as const)
+      lit?.set({ width: 4.5 * ratio, dashedWidth: 3 * ratio, thickWidth: 5 * ratio, pixelRatio: ratio, opacity, aheadOpacity: opacity });
   }
 
   private invalidate(): void {
@@ -798,8 +918,7 @@ export class ToolpathView {
     this.camera.updateMatrixWorld();
     if (this.cutStock && this.shown.stock && !this.cutStock.update(this.camera, 1 / millimeters)) this.invalidate();
     const scale = { pixelsPerMillimeter: this.renderer.getPixelRatio() / millimeters };
-    this.lines.set(scale);
-    this.lit?.set(scale);
+    for (const lines of [this.lines, this.lit, this.other?.lines, this.other?.litLines]) lines?.set(scale);
     this.renderer.render(this.scene, this.camera);
   }
 }

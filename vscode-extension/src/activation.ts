@@ -1,5 +1,6 @@
 /** The extension, with the programs that its entry finds. */
 import * as vscode from 'vscode';
+import * as behavior from './behavior/commands';
 import * as commands from './commands';
 import * as currentProgram from './current_program';
 import * as debug from './debug';
@@ -22,6 +23,7 @@ export function start(context: vscode.ExtensionContext, find: FindProgram): void
   const source = new ToolpathSource(server);
   context.subscriptions.push(server, source);
   currentProgram.activate(context, environment);
+  behavior.activate(context, server);
   commands.activate(context, server);
   debug.activate(context, environment);
   largeFiles.activate(context, environment);

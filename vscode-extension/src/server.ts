@@ -7,6 +7,7 @@ import {
   type FeatureState,
   type StaticFeature,
 } from 'vscode-languageclient';
+import { isInDiff } from './behavior/diffs';
 import { adviseMissing, language, settings, type Environment } from './environment';
 import { isOlder } from './versions';
 
@@ -77,6 +78,8 @@ export class Server implements vscode.Disposable {
       outputChannel: this.output,
       traceOutputChannel: this.trace,
       markdown: { supportHtml: false },
+      // A diff has lenses of its own, about what has changed.
+      middleware: { provideCodeLenses: (document, token, next) => (isInDiff(document) ? [] : next(document, token)) },
     });
     client.registerFeature(new CommandsFeature());
     client.onDidChangeState(({ newState }) => {

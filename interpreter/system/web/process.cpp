@@ -26,6 +26,10 @@ bool has_threads() { return false; }
 /// The process that started a server is the page or the editor that holds it.
 bool is_running(std::int64_t) { return true; }
 
+std::variant<ProgramEnd, std::error_code> run_program(const std::vector<std::string>&, std::string_view) {
+  return std::make_error_code(std::errc::function_not_supported);
+}
+
 std::filesystem::path program_file() { return {}; }
 
 std::string user_locale() { return {}; }

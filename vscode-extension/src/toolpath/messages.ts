@@ -1,7 +1,11 @@
 /** What the toolpath's panel and its page say to each other. */
+import type { ComparisonRecording } from '../../../toolpath-view/src/comparison';
 import type { MachinePosition } from '../../../toolpath-view/src/machine_position';
-import type { Facts, Vector } from '../../../toolpath-view/src/toolpath';
+import type { Facts, Recording, Vector } from '../../../toolpath-view/src/toolpath';
 import type { Patches } from '../../../toolpath-view/src/streams';
+
+/** What the page takes to show the old program of a diff beside the new one (toolpath-view/README.md). */
+export type Overlay = ComparisonRecording & { old: Recording };
 
 export type ToPage =
   | {
@@ -14,6 +18,8 @@ export type ToPage =
       patches: Patches;
       language: 'en' | 'it';
     }
+  /** The old program of a diff, beside the path with this result; null where it is in no diff. */
+  | { type: 'comparison'; resultId: string; overlay: Overlay | null }
   | { type: 'problem'; message: string }
   /** Lines that are selected in the editor, from 0; `last` belongs to them. */
   | { type: 'lines'; first: number; last: number }

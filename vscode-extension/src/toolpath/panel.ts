@@ -47,6 +47,7 @@ export function activate(context: vscode.ExtensionContext, source: ToolpathSourc
     vscode.window.onDidChangeActiveTextEditor((editor) => {
       if (isProgram(editor)) panel?.show(editor.document);
     }),
+    vscode.window.tabGroups.onDidChangeTabs(() => void panel?.compare()),
     vscode.window.onDidChangeTextEditorSelection((change) => panel?.follow(change)),
     vscode.workspace.onDidChangeConfiguration((change) => {
       if (change.affectsConfiguration('isocnc')) panel?.configure();
@@ -77,6 +78,9 @@ class ToolpathPanel implements vscode.Disposable {
   private shown: string | null = null;
   /** A line that the page has led to: its selection need not go back there. */
   private picked = -1;
+  /** The page shows the old program of a diff, too. */
+  private isCompared = false;
+  private comparing: vscode.CancellationTokenSource | null = null;
 
   static options(extension: vscode.Uri): vscode.WebviewOptions {
     return { enableScripts: true, localResourceRoots: [vscode.Uri.joinPath(extension, 'dist')] };
@@ -124,6 +128,18 @@ class ToolpathPanel implements vscode.Disposable {
     this.refresh();
   }
 
+  /** Shows the old program beside this one while a diff of both is in front. */
+  async compare(): Promise<void> {
+    this.comparing?.cancel();
+    const { document, shown } = this;
+    if (!document || shown === null) return;
+    const comparing = (this.comparing = new vscode.CancellationTokenSource());
+    const overlay = await this.source.overlay(document, comparing.token);
+    if (comparing.token.isCancellationRequested || this.shown !== shown || !(overlay || this.isCompared)) return;
+    this.isCompared = overlay !== null;
+    this.post({ type: 'comparison', resultId: shown, overlay });
+  }
+
   follow({ textEditor, selections }: vscode.TextEditorSelectionChangeEvent): void {
     if (textEditor.document !== this.document) return;
     const { start, end } = selections[0];
@@ -144,6 +160,7 @@ class ToolpathPanel implements vscode.Disposable {
 
   dispose(): void {
     this.isDisposed = true;
+    this.comparing?.cancel();
     this.source.watch(this, null);
     for (const each of this.subscriptions.splice(0)) each.dispose();
     this.panel.dispose();
@@ -208,6 +225,7 @@ class ToolpathPanel implements vscode.Disposable {
       patches: isNext ? path.patches : whole(path),
       language: language(),
     });
+    void this.compare();
     if (!isFirst) return;
     this.post({ type: 'stock', size: settings(this.document).get<Vector | null>('toolpath.stock', null) });
     const editor = this.editor;

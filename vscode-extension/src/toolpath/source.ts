@@ -1,8 +1,10 @@
 /** Toolpaths of open programs, as isols works them out: asked for again after each edit. */
 import * as vscode from 'vscode';
 import { secondsOf, type Recording } from '../../../toolpath-view/src/toolpath';
+import { overlayOf } from '../behavior/overlay';
 import { settings } from '../environment';
 import type { Server } from '../server';
+import type { Overlay } from './messages';
 import { applied, received, streamNames, type Patches, type SentToolpath } from '../../../toolpath-view/src/streams';
 
 /** How long to wait for another edit. */
@@ -75,6 +77,11 @@ export class ToolpathSource implements vscode.Disposable {
 
   latest(uri: vscode.Uri): KnownToolpath | null {
     return this.watched.get(uri.toString())?.known ?? null;
+  }
+
+  /** What a view takes to show the old program beside this one, of the diff in front, at this version; null where there is none. */
+  overlay(document: vscode.TextDocument, token: vscode.CancellationToken): Promise<Overlay | null> {
+    return overlayOf(this.server, document, bytesOf, token).catch(() => null);
   }
 
   dispose(): void {

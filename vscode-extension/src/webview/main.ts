@@ -1,4 +1,5 @@
 /** The page in the toolpath's panel. It has the view of isorun's page; program and cursor are the editor's. */
+import { Comparison } from '../../../toolpath-view/src/comparison';
 import { byId, element } from '../../../toolpath-view/src/elements';
 import { Panel } from '../../../toolpath-view/src/panel';
 import { Toolpath, type Recording, type Vector } from '../../../toolpath-view/src/toolpath';
@@ -16,6 +17,7 @@ class Page {
   private path: Toolpath | null = null;
   private panel: Panel | null = null;
   private stock: Vector | null = null;
+  private comparison: Comparison | null = null;
 
   constructor() {
     window.addEventListener('message', ({ data }: MessageEvent<ToPage>) => this.receive(data));
@@ -30,6 +32,8 @@ class Page {
     switch (message.type) {
       case 'path':
         return this.take(message);
+      case 'comparison':
+        return this.compare(message);
       case 'problem':
         return this.showProblem(message.message);
       case 'lines':
@@ -43,6 +47,19 @@ class Page {
     }
   }
 
+  /** A comparison that an edit has overtaken is followed by another one. */
+  private compare({ resultId, overlay }: Extract<ToPage, { type: 'comparison' }>): void {
+    if (!this.panel || !this.path || resultId !== this.resultId) return;
+    this.comparison = overlay && new Comparison({ old: new Toolpath(overlay.old), new: this.path }, overlay);
+    this.panel.compare(this.comparison);
+    this.publish(this.panel);
+  }
+
+  /** For tests, which look from outside. */
+  private publish({ view, player }: Panel): void {
+    Object.assign(window, { isocnc: { path: this.path, view, player, comparison: this.comparison } });
+  }
+
   private take(message: Extract<ToPage, { type: 'path' }>): void {
     if (message.previousResultId !== null && message.previousResultId !== this.resultId) {
       this.editor.postMessage({ type: 'resend' });
@@ -51,6 +68,9 @@ class Page {
     this.recording = applied(this.recording, message.facts, message.patches);
     this.resultId = message.resultId;
     this.path = new Toolpath(this.recording);
+    // Another path is compared anew.
+    if (this.comparison) this.panel?.compare(null);
+    this.comparison = null;
     if (this.panel) this.panel.take(this.path);
     else this.panel = this.makePanel(this.path, message.language);
     this.panel.setLanguage(message.language);
@@ -58,8 +78,7 @@ class Page {
     if (message.program !== this.program) this.panel.view?.fit();
     this.program = message.program;
     this.showProblem('');
-    // For tests, which look from outside.
-    Object.assign(window, { isocnc: { path: this.path, view: this.panel.view, player: this.panel.player } });
+    this.publish(this.panel);
     document.documentElement.dataset.ready = String(Number(document.documentElement.dataset.ready ?? 0) + 1);
   }
 
@@ -71,6 +90,10 @@ class Page {
     // A page in an editor cannot download.
     panel.onSave = (name, content) => {
       void content.arrayBuffer().then((bytes) => this.editor.postMessage({ type: 'save', name, content: new Uint8Array(bytes) }));
+    };
+    panel.compared.onChange = (change) => {
+      const lines = this.comparison?.changes[change]?.new;
+      if (lines) this.editor.postMessage({ type: 'picked', line: lines[0] - 1 });
     };
     panel.onLine = (line) => {
       if (panel.player.isPlaying) this.editor.postMessage({ type: 'passing', line });

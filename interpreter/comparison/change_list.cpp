@@ -1,0 +1,338 @@
+#include "interpreter/comparison/change_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace isocnc::comparison {
+
+using geometry::Vec3;
+
+namespace {
+
+constexpr double kSameFeed = 1e-4;  ///< Relative: what F loses where it is written in inches or under G93.
+
+/// A number without zeros at its end.
+std::string shown(double number) {
+  std::string text = fmt::format("{:.4f}", number);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::optional<ChangedLines> lines_of(const RecordedRun& run, std::size_t begin, std::size_t end) {
+  if (begin == end) return std::nullopt;
+  ChangedLines lines{run.actions[begin].line, run.actions[begin].line};
+  for (std::size_t i = begin; i < end; ++i) {
+    lines.first = std::min<std::size_t>(lines.first, run.actions[i].line);
+    lines.last = std::max<std::size_t>(lines.last, run.actions[i].line);
+  }
+  return lines;
+}
+
+/// What comes after the last action comes where that is.
+std::size_t start_of(const RecordedRun& run, std::size_t begin) {
+  return run.actions[std::min(begin, run.actions.size() - 1)].line;
+}
+
+bool is_same_feed(const MachineAction& a, const MachineAction& b) {
+  if (a.is_rapid != b.is_rapid) return false;
+  const auto near = [](double one, double other) {
+    return std::abs(one - other) <= kSameFeed * std::max(std::abs(one), std::abs(other));
+  };
+  return near(a.feed, b.feed) || (a.is_inverse_time && b.is_inverse_time && near(a.value, b.value));
+}
+
+}  // namespace
+
+std::size_t motion_count(const RecordedRun& run, std::size_t begin, std::size_t end) {
+  const std::span actions = std::span(run.actions).subspan(begin, end - begin);
+  return static_cast<std::size_t>(
+      std::count_if(actions.begin(), actions.end(), [](const MachineAction& each) { return each.is_motion(); }));
+}
+
+std::string value_of(const RecordedRun& run, const MachineAction& action) {
+  switch (action.kind) {
+    case ActionKind::Motion:
+      return action.is_rapid ? "G00" : "F" + shown(action.feed);
+    case ActionKind::ExactStop:
+      return "G09";
+    case ActionKind::Dwell:
+      return shown(action.value) + " s";
+    case ActionKind::Spindle:
+      if (action.number == 5) return "M05";
+      return fmt::format("S{} M{:02}", shown(action.value), action.number);
+    case ActionKind::Function: {
+      const running::FunctionEvent& function = run.functions[action.number];
+      std::string text = fmt::format("M{:02}", function.number);
+      for (const execution::FunctionParameter& parameter : function.parameters)
+        text += fmt::format(" P{}={}", parameter.number, shown(parameter.value));
+      return text;
+    }
+    case ActionKind::Signal:
+      return fmt::format("G{}", action.number);
+    case ActionKind::Tool:
+      return running::tool_name(run.tools[action.tool].code);
+    case ActionKind::End:
+      if (action.number == 0) return "M02";
+      return std::string(dialect::definition(static_cast<dialect::DiagnosticId>(action.number - 1)).code);
+  }
+  return "";
+}
+
+ChangeKind kind_of(ActionKind kind) {
+  switch (kind) {
+    case ActionKind::Motion:
+      return ChangeKind::Moved;
+    case ActionKind::Dwell:
+      return ChangeKind::Dwell;
+    case ActionKind::Spindle:
+      return ChangeKind::Speed;
+    case ActionKind::Tool:
+      return ChangeKind::Tool;
+    case ActionKind::End:
+      return ChangeKind::End;
+    case ActionKind::ExactStop:
+    case ActionKind::Function:
+    case ActionKind::Signal:
+      return ChangeKind::Function;
+  }
+  return ChangeKind::Function;
+}
+
+std::optional<execution::ToolCode> tool_of(const RecordedRun& run, const MachineAction& action) {
+  return action.tool == MachineAction::kNone ? std::nullopt : std::optional(run.tools[action.tool].code);
+}
+
+ChangeList::ChangeList(const RunPair& runs, const ComparisonOptions& options) : runs_(runs), options_(options) {}
+
+BehaviorChange& ChangeList::add(ChangeKind kind, const ActionRanges& at) {
+  BehaviorChange change{.kind = kind,
+                        .old_lines = lines_of(runs_.a, at.a_begin, at.a_end),
+                        .new_lines = lines_of(runs_.b, at.b_begin, at.b_end),
+                        .old_start = start_of(runs_.a, at.a_begin),
+                        .new_start = start_of(runs_.b, at.b_begin),
+                        .old_motions = motion_count(runs_.a, at.a_begin, at.a_end),
+                        .new_motions = motion_count(runs_.b, at.b_begin, at.b_end)};
+  if (at.a_begin < at.a_end) change.old_tool = tool_of(runs_.a, a(at.a_begin));
+  if (at.b_begin < at.b_end) change.new_tool = tool_of(runs_.b, b(at.b_begin));
+  places_.push_back(at);
+  return changes_.emplace_back(std::move(change));
+}
+
+void ChangeList::follow_shift(const ActionRanges& at, const Vec3& shift) {
+  if (shift_ && shift_->shift != shift) close_shift();
+  if (shift.isZero(0)) return;
+  if (!shift_) shift_ = OpenShift{at, shift};
+  // The row ends with a motion: what follows it is nowhere else.
+  std::size_t a_end = at.a_end;
+  std::size_t b_end = at.b_end;
+  while (a_end > at.a_begin && !a(a_end - 1).is_motion()) --a_end;
+  while (b_end > at.b_begin && !b(b_end - 1).is_motion()) --b_end;
+  if (a_end > at.a_begin) shift_->actions.a_end = a_end;
+  if (b_end > at.b_begin) shift_->actions.b_end = b_end;
+}
+
+void ChangeList::close_shift() {
+  if (!shift_) return;
+  const OpenShift open = *std::exchange(shift_, std::nullopt);
+  const ActionFrame& old_frame = runs_.a.frames[a(open.actions.a_begin).frame];
+  const ActionFrame& new_frame = runs_.b.frames[b(open.actions.b_begin).frame];
+  const Vec3 moved = new_frame.frame.origin - old_frame.frame.origin - open.shift;
+  const bool is_frame = moved.norm() <= options_.tolerance && old_frame.frame.axes.isApprox(new_frame.frame.axes);
+  BehaviorChange& change = add(is_frame ? ChangeKind::Frame : ChangeKind::Moved, open.actions);
+  change.distance = open.shift.norm();
+  change.shift = open.shift;
+  if (!is_frame) return;
+  change.old_cause = old_frame.line;
+  change.new_cause = new_frame.line;
+}
+
+void ChangeList::compare_feeds(std::size_t i, std::size_t k) {
+  const MachineAction& left = a(i);
+  const MachineAction& right = b(k);
+  if (!left.is_motion() || !right.is_motion()) return;
+  if (options_.ignores_feed && left.is_rapid == right.is_rapid) return;
+  if (is_same_feed(left, right)) {
+    if (!left.is_rapid) close_feed();
+    return;
+  }
+  std::string old_value = value_of(runs_.a, left);
+  std::string new_value = value_of(runs_.b, right);
+  if (!feed_ || feed_->old_value != old_value || feed_->new_value != new_value) {
+    close_feed();
+    feed_ = OpenFeed{{i, i + 1, k, k + 1}, std::move(old_value), std::move(new_value)};
+  }
+  feed_->actions.a_end = i + 1;
+  feed_->actions.b_end = k + 1;
+}
+
+void ChangeList::compare_feeds_along(const AlignedPiece& piece) {
+  for (PlaceInBoth place{piece.a_begin, piece.b_begin}; place.a < piece.a_end;) {
+    overlaps_.clear();
+    const auto next =
+        same_step(runs_, place, piece.shift, [&](std::size_t i, std::size_t k) { overlaps_.emplace_back(i, k); });
+    for (const auto& [i, k] : overlaps_) compare_feeds(i, k);
+    place = next.value_or(PlaceInBoth{place.a + 1, place.b + 1});
+  }
+}
+
+void ChangeList::compare_feeds_alone(std::size_t i, std::size_t k) {
+  close_feed();
+  compare_feeds(i, k);
+  close_feed();
+}
+
+void ChangeList::close_feed() {
+  if (!feed_) return;
+  OpenFeed open = std::move(*std::exchange(feed_, std::nullopt));
+  BehaviorChange& change = add(ChangeKind::Feed, open.actions);
+  change.old_value = std::move(open.old_value);
+  change.new_value = std::move(open.new_value);
+}
+
+std::vector<BehaviorChange> ChangeList::take() {
+  close_shift();
+  close_feed();
+  name_turned_frames();
+  join_moved_blocks();
+  sort();
+  return std::move(changes_);
+}
+
+/// Whether two motions are the same, each in the frame that is in force there.
+bool ChangeList::is_by_frames(const MachineAction& left, const MachineAction& right) const {
+  if (!left.is_motion() || !right.is_motion()) return false;
+  const geometry::Frame& old_frame = runs_.a.frames[left.frame].frame;
+  const geometry::Frame& new_frame = runs_.b.frames[right.frame].frame;
+  const auto is_same = [&](const Vec3& from_a, const Vec3& from_b) {
+    return (new_frame.to_outer(old_frame.to_inner(from_a)) - from_b).norm() <= options_.tolerance;
+  };
+  if (std::max(std::abs(left.to.b - right.to.b), std::abs(left.to.c - right.to.c)) > options_.tolerance) return false;
+  if (!is_same(left.to.tip, right.to.tip)) return false;
+  const bool is_arc = left.arc != MachineAction::kNone;
+  if (!is_arc || right.arc == MachineAction::kNone) return is_arc == (right.arc != MachineAction::kNone);
+  const ActionArc& left_arc = runs_.a.arcs[left.arc];
+  const ActionArc& right_arc = runs_.b.arcs[right.arc];
+  const Vec3 normal = new_frame.axes * old_frame.axes.transpose() * left_arc.normal;
+  const double turn = std::abs(left_arc.sweep_deg - right_arc.sweep_deg) / 180 * std::numbers::pi;
+  return is_same(left_arc.center, right_arc.center) && is_same(left.from.tip, right.from.tip) &&
+         normal.isApprox(right_arc.normal) && turn * (left.from.tip - left_arc.center).norm() <= options_.tolerance;
+}
+
+/// Whether a frame alone makes the difference: from the first motion to the last one the same frame of each run is in
+/// force, and in it they are the same.
+bool ChangeList::is_by_frames(const ActionRanges& at) const {
+  if (at.a_begin == at.a_end || at.a_end - at.a_begin != at.b_end - at.b_begin) return false;
+  const std::uint32_t old_frame = a(at.a_begin).frame;
+  const std::uint32_t new_frame = b(at.b_begin).frame;
+  for (std::size_t i = at.a_begin, k = at.b_begin; i < at.a_end; ++i, ++k) {
+    if (a(i).frame != old_frame || b(k).frame != new_frame) return false;
+    if (a(i).is_motion() || b(k).is_motion() ? !is_by_frames(a(i), b(k)) : !is_same_effect(runs_, a(i), b(k)))
+      return false;
+  }
+  return true;
+}
+
+/// In a frame that is turned, each motion is moved otherwise. Together they are one change.
+void ChangeList::name_turned_frames() {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> known;  // The first changes by their frames.
+  std::vector<bool> is_joined(changes_.size());
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    BehaviorChange& change = changes_[i];
+    if (change.kind != ChangeKind::Moved && change.kind != ChangeKind::Shape) continue;
+    const ActionRanges& at = places_[i];
+    if (!is_by_frames(at)) continue;
+    const ActionFrame& old_frame = runs_.a.frames[a(at.a_begin).frame];
+    const ActionFrame& new_frame = runs_.b.frames[b(at.b_begin).frame];
+    if (old_frame.frame.axes.isApprox(new_frame.frame.axes)) continue;
+    const auto [first, is_new] = known.emplace(std::pair(a(at.a_begin).frame, b(at.b_begin).frame), i);
+    if (is_new) {
+      change.kind = ChangeKind::Frame;
+      change.shift.reset();
+      change.old_cause = old_frame.line;
+      change.new_cause = new_frame.line;
+      continue;
+    }
+    is_joined[i] = true;
+    BehaviorChange& whole = changes_[first->second];
+    ActionRanges& all = places_[first->second];
+    all = {std::min(all.a_begin, at.a_begin), std::max(all.a_end, at.a_end), std::min(all.b_begin, at.b_begin),
+           std::max(all.b_end, at.b_end)};
+    whole.distance =
+        whole.distance && change.distance ? std::optional(std::max(*whole.distance, *change.distance)) : std::nullopt;
+  }
+  for (const auto& [frames, first] : known) {
+    BehaviorChange& whole = changes_[first];
+    const ActionRanges& all = places_[first];
+    whole.old_lines = lines_of(runs_.a, all.a_begin, all.a_end);
+    whole.new_lines = lines_of(runs_.b, all.b_begin, all.b_end);
+    whole.old_motions = motion_count(runs_.a, all.a_begin, all.a_end);
+    whole.new_motions = motion_count(runs_.b, all.b_begin, all.b_end);
+  }
+  remove(is_joined);
+}
+
+/// Motions that are removed in one place and added in another one have another order.
+void ChangeList::join_moved_blocks() {
+  constexpr std::size_t kMaxChanges = 2000;
+  if (changes_.size() > kMaxChanges) return;
+  std::vector<bool> is_joined(changes_.size());
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    if (changes_[i].kind != ChangeKind::Removed) continue;
+    for (std::size_t k = 0; k < changes_.size(); ++k) {
+      if (changes_[k].kind != ChangeKind::Added || is_joined[k] || !is_same_block(places_[i], places_[k])) continue;
+      BehaviorChange& change = changes_[i];
+      change.kind = ChangeKind::Reordered;
+      change.new_lines = changes_[k].new_lines;
+      change.new_start = changes_[k].new_start;
+      change.new_motions = changes_[k].new_motions;
+      change.new_tool = changes_[k].new_tool;
+      is_joined[k] = true;
+      break;
+    }
+  }
+  remove(is_joined);
+}
+
+void ChangeList::remove(const std::vector<bool>& is_removed) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    if (is_removed[i]) continue;
+    if (kept != i) changes_[kept] = std::move(changes_[i]);
+    places_[kept++] = places_[i];
+  }
+  changes_.resize(kept);
+  places_.resize(kept);
+}
+
+bool ChangeList::is_same_block(const ActionRanges& removed, const ActionRanges& added) const {
+  const std::size_t count = removed.a_end - removed.a_begin;
+  if (added.b_end - added.b_begin != count) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const MachineAction& left = a(removed.a_begin + i);
+    const MachineAction& right = b(added.b_begin + i);
+    if (!is_same_action(runs_, left, right, Vec3::Zero())) return false;
+    if (left.is_motion() && !options_.ignores_feed && !is_same_feed(left, right)) return false;
+  }
+  return true;
+}
+
+void ChangeList::sort() {
+  std::vector<std::size_t> order(changes_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t left, std::size_t right) {
+    const auto key = [&](std::size_t i) { return std::pair(places_[i].a_begin, places_[i].b_begin); };
+    return key(left) < key(right);
+  });
+  std::vector<BehaviorChange> sorted;
+  for (const std::size_t i : order) sorted.push_back(std::move(changes_[i]));
+  changes_ = std::move(sorted);
+}
+
+}  // namespace isocnc::comparison

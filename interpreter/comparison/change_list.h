@@ -1,0 +1,82 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "interpreter/comparison/alignment.h"
+#include "interpreter/comparison/comparison.h"
+#include "interpreter/comparison/motion_steps.h"
+
+namespace isocnc::comparison {
+
+/// What an action does, as programs write it: `F4000`, `S12000 M03`.
+std::string value_of(const RecordedRun& run, const MachineAction& action);
+
+/// What a change of such actions is.
+ChangeKind kind_of(ActionKind kind);
+
+/// The tool that is mounted in an action.
+std::optional<execution::ToolCode> tool_of(const RecordedRun& run, const MachineAction& action);
+
+/// How many motions a range of actions has.
+std::size_t motion_count(const RecordedRun& run, std::size_t begin, std::size_t end);
+
+/// The changes that are found along two runs. Those that may go on for a while, a shift and another feed, are followed
+/// and become one change each where they end.
+class ChangeList {
+ public:
+  ChangeList(const RunPair& runs, const ComparisonOptions& options);
+
+  const RunPair& runs() const { return runs_; }
+  const ComparisonOptions& options() const { return options_; }
+
+  /// Adds a change with its lines, tools and counts; the caller sets the rest before it adds another one.
+  BehaviorChange& add(ChangeKind kind, const ActionRanges& at);
+
+  /// All of both ranges is the same but for a shift; 0 ends the one before.
+  void follow_shift(const ActionRanges& at, const geometry::Vec3& shift);
+
+  /// The next motions that take the place of each other, by their indices in both runs.
+  void compare_feeds(std::size_t i, std::size_t k);
+  void compare_feeds_along(const AlignedPiece& piece);
+  /// Feeds of motions that do not follow each other in both runs.
+  void compare_feeds_alone(std::size_t i, std::size_t k);
+
+  /// All changes, in the order of the runs.
+  std::vector<BehaviorChange> take();
+
+ private:
+  struct OpenShift {
+    ActionRanges actions;
+    geometry::Vec3 shift = geometry::Vec3::Zero();
+  };
+  struct OpenFeed {
+    ActionRanges actions;
+    std::string old_value;
+    std::string new_value;
+  };
+
+  const MachineAction& a(std::size_t i) const { return runs_.a.actions[i]; }
+  const MachineAction& b(std::size_t i) const { return runs_.b.actions[i]; }
+  void close_shift();
+  void close_feed();
+  void name_turned_frames();
+  bool is_by_frames(const ActionRanges& at) const;
+  bool is_by_frames(const MachineAction& left, const MachineAction& right) const;
+  void join_moved_blocks();
+  void remove(const std::vector<bool>& is_removed);
+  bool is_same_block(const ActionRanges& removed, const ActionRanges& added) const;
+  void sort();
+
+  const RunPair& runs_;
+  const ComparisonOptions& options_;
+  std::vector<BehaviorChange> changes_;
+  std::vector<ActionRanges> places_;  ///< Of each change.
+  std::optional<OpenShift> shift_;
+  std::optional<OpenFeed> feed_;
+  std::vector<std::pair<std::size_t, std::size_t>> overlaps_;
+};
+
+}  // namespace isocnc::comparison

@@ -1,0 +1,265 @@
+#include "interpreter/comparison/motion_changes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "interpreter/comparison/action_path.h"
+
+namespace isocnc::comparison {
+
+using geometry::Vec3;
+
+namespace {
+
+/// Names the differences between motions.
+class MotionNamer {
+ public:
+  explicit MotionNamer(ChangeList& changes) : changes_(changes), runs_(changes.runs()), options_(changes.options()) {}
+
+  /// Names how one motion goes otherwise than the other one, if it does. Both end in the same place but for a shift.
+  void name_way(std::size_t i, std::size_t k, const Vec3& shift) {
+    if (goes_same_way(runs_, a(i), b(k)) && !starts_elsewhere(i, k, shift)) return;
+    const Vec3 at_start = b(k).from.tip - a(i).from.tip;
+    const Vec3 at_end = b(k).to.tip - a(i).to.tip;
+    const ActionRanges at{i, i + 1, k, k + 1};
+    BehaviorChange& change = changes_.add(ChangeKind::Shape, at);
+    change.distance = shown_distance(at, (at_end - at_start).norm() <= options_.tolerance ? at_end : shift);
+    if (!change.distance && is_other_way_around(runs_, a(i), b(k))) change.distance = 0;
+  }
+
+  void name_motions(const MotionBlock& block, const DifferentPart& part) {
+    const RunPair motions{block.a, block.b, runs_.tolerance};
+    StepGroup group{block, part.actions, {}};
+    for (const MotionStep& step : block.steps) {
+      if (!step.is_in_place) {
+        group.steps.push_back(step);
+        continue;
+      }
+      const bool has_way = name_group(group, &step);
+      group.steps.clear();
+      const ActionRanges at = actions_of(block, step.motions, part.actions);
+      changes_.follow_shift(at, step.shift);
+      if (step.kind == MotionStep::Kind::Pair) {
+        if (!has_way) name_way(at.a_begin, at.b_begin, step.shift);
+        changes_.compare_feeds(at.a_begin, at.b_begin);
+      } else {
+        same_step(motions, {step.motions.a_begin, step.motions.b_begin}, step.shift, [&](std::size_t i, std::size_t k) {
+          changes_.compare_feeds(block.a_actions[i], block.b_actions[k]);
+        });
+      }
+    }
+    name_group(group, nullptr);
+  }
+
+ private:
+  const MachineAction& a(std::size_t i) const { return runs_.a.actions[i]; }
+  const MachineAction& b(std::size_t i) const { return runs_.b.actions[i]; }
+
+  /// The actions from the first to the last one of some motions.
+  static ActionRanges actions_of(const MotionBlock& block, const ActionRanges& motions, const ActionRanges& whole) {
+    const auto range = [](const std::vector<std::size_t>& actions, std::size_t begin, std::size_t end,
+                          std::size_t whole_end) {
+      const std::size_t first = begin < actions.size() ? actions[begin] : whole_end;
+      return std::pair(first, begin < end ? actions[end - 1] + 1 : first);
+    };
+    ActionRanges at;
+    std::tie(at.a_begin, at.a_end) = range(block.a_actions, motions.a_begin, motions.a_end, whole.a_end);
+    std::tie(at.b_begin, at.b_end) = range(block.b_actions, motions.b_begin, motions.b_end, whole.b_end);
+    return at;
+  }
+
+  /// Steps in a row that are not in place.
+  struct StepGroup {
+    const MotionBlock& block;
+    const ActionRanges& whole;
+    std::vector<MotionStep> steps;
+
+    ActionRanges actions(std::size_t first, std::size_t last) const {
+      const ActionRanges& begin = steps[first].motions;
+      const ActionRanges& end = steps[last].motions;
+      return actions_of(block, {begin.a_begin, end.a_end, begin.b_begin, end.b_end}, whole);
+    }
+    ActionRanges all() const { return actions(0, steps.size() - 1); }
+    /// Together with the motions that follow it in place.
+    ActionRanges closed(const MotionStep* closing) const {
+      ActionRanges at = all();
+      if (closing == nullptr || closing->kind != MotionStep::Kind::Pair) return at;
+      at.a_end = block.a_actions[closing->motions.a_begin] + 1;
+      at.b_end = block.b_actions[closing->motions.b_begin] + 1;
+      return at;
+    }
+    std::size_t count(MotionStep::Kind kind) const {
+      return static_cast<std::size_t>(
+          std::count_if(steps.begin(), steps.end(), [&](const MotionStep& step) { return step.kind == kind; }));
+    }
+    std::pair<std::size_t, std::size_t> pair(const MotionStep& step) const {
+      return {block.a_actions[step.motions.a_begin], block.b_actions[step.motions.b_begin]};
+    }
+  };
+
+  /// Names steps that are not in place, and says whether that includes the way of the motions that close them.
+  bool name_group(StepGroup& group, const MotionStep* closing) {
+    if (group.steps.empty()) return false;
+    pair_all(group);
+    const std::size_t pairs = group.count(MotionStep::Kind::Pair);
+    const std::size_t only_a = group.count(MotionStep::Kind::OnlyInA);
+    const std::size_t only_b = group.count(MotionStep::Kind::OnlyInB);
+    const Vec3& shift = group.steps.front().shift;
+    for (const MotionStep& step : group.steps) {
+      if (step.kind != MotionStep::Kind::Pair) continue;
+      const auto [i, k] = group.pair(step);
+      if (!a(i).is_inverse_time) changes_.compare_feeds(i, k);
+    }
+    if (pairs == 0 && (only_a == 0 || only_b == 0)) {
+      if (closing != nullptr && closing->kind == MotionStep::Kind::Pair) {
+        const auto [i, k] = group.pair(*closing);
+        if (!goes_same_way(runs_, a(i), b(k))) {
+          name_shape(group.closed(closing), group.closed(closing), shift);
+          return true;
+        }
+      }
+      changes_.add(only_b > 0 ? ChangeKind::Added : ChangeKind::Removed, group.all());
+      return false;
+    }
+    const std::optional<Vec3> common = common_shift(group);
+    const bool has_same_ways = std::all_of(group.steps.begin(), group.steps.end(), [&](const MotionStep& step) {
+      if (step.kind != MotionStep::Kind::Pair) return true;
+      const auto [i, k] = group.pair(step);
+      return goes_same_way(runs_, a(i), b(k));
+    });
+    if (only_a == 0 && only_b == 0 && (common || has_same_ways)) {
+      name_moved(group, closing, common);
+    } else if (!name_shortened(group, common)) {
+      name_shape(group.all(), group.closed(closing), shift);
+    }
+    return false;
+  }
+
+  /// Takes as many lines of both as pairs in their order.
+  void pair_all(StepGroup& group) const {
+    const std::size_t only_a = group.count(MotionStep::Kind::OnlyInA);
+    if (only_a == 0 || only_a != group.count(MotionStep::Kind::OnlyInB)) return;
+    const ActionRanges& first = group.steps.front().motions;
+    const ActionRanges& last = group.steps.back().motions;
+    const auto is_line = [](const MachineAction& motion) { return motion.is_line(); };
+    const std::span of_a = std::span(group.block.a.actions).subspan(first.a_begin, last.a_end - first.a_begin);
+    const std::span of_b = std::span(group.block.b.actions).subspan(first.b_begin, last.b_end - first.b_begin);
+    if (!std::all_of(of_a.begin(), of_a.end(), is_line) || !std::all_of(of_b.begin(), of_b.end(), is_line)) return;
+    std::vector<MotionStep> pairs;
+    for (std::size_t i = first.a_begin, k = first.b_begin; i < last.a_end; ++i, ++k)
+      pairs.push_back({MotionStep::Kind::Pair, {i, i + 1, k, k + 1}, false, group.steps.front().shift});
+    group.steps = std::move(pairs);
+  }
+
+  void name_shape(const ActionRanges& at, const ActionRanges& path, const Vec3& shift) {
+    changes_.add(ChangeKind::Shape, at).distance = shown_distance(path, shift);
+  }
+
+  void name_moved(const StepGroup& group, const MotionStep* closing, const std::optional<Vec3>& common) {
+    BehaviorChange& change = changes_.add(ChangeKind::Moved, group.all());
+    for (const MotionStep& step : group.steps) {
+      const auto [i, k] = group.pair(step);
+      change.turned = std::max({change.turned, std::abs(a(i).to.b - b(k).to.b), std::abs(a(i).to.c - b(k).to.c)});
+    }
+    if (change.turned <= options_.tolerance) change.turned = 0;
+    if (common && common->norm() > options_.tolerance) change.shift = common;
+    change.distance = change.shift ? common->norm() : shown_distance(group.closed(closing), group.steps.front().shift);
+    if (!common) return;
+    for (const MotionStep& step : group.steps) {
+      const auto [i, k] = group.pair(step);
+      name_way(i, k, *common);
+    }
+  }
+
+  /// Motions that one run does not have, beside others that are moved as a whole: the retraction after the last hole.
+  bool name_shortened(const StepGroup& group, const std::optional<Vec3>& common) {
+    if (!common || common->norm() <= options_.tolerance) return false;
+    std::size_t first_pair = 0;
+    while (first_pair < group.steps.size() && group.steps[first_pair].kind != MotionStep::Kind::Pair) ++first_pair;
+    if (first_pair == 0) return false;
+    const MotionStep::Kind only = group.steps.front().kind;
+    for (std::size_t i = 0; i < group.steps.size(); ++i) {
+      if (group.steps[i].kind != (i < first_pair ? only : MotionStep::Kind::Pair)) return false;
+      if (i < first_pair) continue;
+      const auto [left, right] = group.pair(group.steps[i]);
+      if ((b(right).from.tip - a(left).from.tip - *common).norm() > options_.tolerance ||
+          !goes_same_way(runs_, a(left), b(right)))
+        return false;
+    }
+    changes_.add(only == MotionStep::Kind::OnlyInB ? ChangeKind::Added : ChangeKind::Removed,
+                 group.actions(0, first_pair - 1));
+    BehaviorChange& moved = changes_.add(ChangeKind::Moved, group.actions(first_pair, group.steps.size() - 1));
+    moved.shift = common;
+    moved.distance = common->norm();
+    return true;
+  }
+
+  /// By how much all motions of both are moved, if it is the same.
+  std::optional<Vec3> common_shift(const StepGroup& group) const {
+    std::optional<Vec3> common;
+    for (const MotionStep& step : group.steps) {
+      if (step.kind != MotionStep::Kind::Pair) continue;
+      const auto [i, k] = group.pair(step);
+      const Vec3 shift = b(k).to.tip - a(i).to.tip;
+      if (!common) common = shift;
+      if ((shift - *common).norm() > options_.tolerance) return std::nullopt;
+      if (std::max(std::abs(a(i).to.b - b(k).to.b), std::abs(a(i).to.c - b(k).to.c)) > options_.tolerance)
+        return std::nullopt;
+    }
+    return common;
+  }
+
+  std::optional<double> distance(const ActionRanges& at, const Vec3& shift) const {
+    const double deviation = options_.tolerance / 8;
+    std::vector<Vec3> old_chain =
+        chain_of(runs_.a, std::span(runs_.a.actions).subspan(at.a_begin, at.a_end - at.a_begin), deviation);
+    for (Vec3& point : old_chain) point += shift;
+    return distance_of(
+        old_chain, chain_of(runs_.b, std::span(runs_.b.actions).subspan(at.b_begin, at.b_end - at.b_begin), deviation),
+        options_.tolerance / 4, runs_.budget == nullptr ? nullptr : &runs_.budget->distances);
+  }
+
+  /// The distance where only B and C differ is none.
+  std::optional<double> shown_distance(const ActionRanges& at, const Vec3& shift) const {
+    const std::optional<double> mm = distance(at, shift);
+    return mm && *mm <= options_.tolerance / 2 ? std::nullopt : mm;
+  }
+
+  static const MachineAction* motion_before(const RecordedRun& run, std::size_t action) {
+    while (action > 0)
+      if (run.actions[--action].is_motion()) return &run.actions[action];
+    return nullptr;
+  }
+
+  /// Whether two motions start in different places though what comes before them ends in the same one: the machines
+  /// have other homes, or tools of other lengths.
+  bool starts_elsewhere(std::size_t i, std::size_t k, const Vec3& shift) const {
+    const Vec3 at_start = b(k).from.tip - a(i).from.tip;
+    if (std::min(at_start.norm(), (at_start - shift).norm()) <= options_.tolerance) return false;
+    if (tool_of(runs_.a, a(i)) != tool_of(runs_.b, b(k))) return false;
+    const MachineAction* const a_before = motion_before(runs_.a, i);
+    const MachineAction* const b_before = motion_before(runs_.b, k);
+    if (a_before == nullptr || b_before == nullptr) return a_before == b_before;
+    return ends_together(runs_, *a_before, *b_before, shift) ||
+           ends_together(runs_, *a_before, *b_before, Vec3::Zero());
+  }
+
+  ChangeList& changes_;
+  const RunPair& runs_;
+  const ComparisonOptions& options_;
+};
+
+}  // namespace
+
+void name_way(ChangeList& changes, std::size_t i, std::size_t k, const Vec3& shift) {
+  MotionNamer(changes).name_way(i, k, shift);
+}
+
+void name_motions(ChangeList& changes, const MotionBlock& block, const DifferentPart& part) {
+  MotionNamer(changes).name_motions(block, part);
+}
+
+}  // namespace isocnc::comparison

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+
+#include "interpreter/comparison/change_list.h"
+#include "interpreter/comparison/motion_steps.h"
+
+namespace isocnc::comparison {
+
+/// Names how one motion goes otherwise than the other one, if it does. Both end in the same place but for a shift.
+void name_way(ChangeList& changes, std::size_t i, std::size_t k, const geometry::Vec3& shift);
+
+/// Names what differs in the motions of a part: where they lead, their paths and their feeds.
+void name_motions(ChangeList& changes, const MotionBlock& block, const DifferentPart& part);
+
+}  // namespace isocnc::comparison
