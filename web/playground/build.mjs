@@ -63,7 +63,8 @@ const parts = {
   outcome: part('<p id="outcome"', '</p>'),
   totals: part('<dl id="totals"', '</dl>'),
   help: part('<button id="help"', '</button>'),
-  view: part('<section id="view"', '</section>'),
+  // Sections within it are indented deeper.
+  view: part('<section id="view"', '\n  </section>'),
   player: part('<footer', '</footer>'),
   keys: part('<dialog id="keys"', '</dialog>'),
 };
