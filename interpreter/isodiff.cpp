@@ -84,6 +84,9 @@ constexpr Text kOnePath{"--format html shows both programs on one path: name it 
 constexpr Text kPageToTerminal{"--format html writes a page, which a terminal does not show: name a file with --output",
                                "--format html scrive una pagina, che un terminale non mostra: indicare un file con "
                                "--output"};
+constexpr Text kNoScene{
+    "{}: no setup is for this program, so contacts and material are not compared",
+    "{}: nessun attrezzaggio è per questo programma, quindi contatti e materiale non si confrontano"};
 constexpr Text kOverwrites{"{}: this would overwrite {}", "{}: così si sovrascriverebbe {}"};
 
 void complain(std::string_view what) { command_line::complain("isodiff", what); }
@@ -222,6 +225,10 @@ std::optional<std::array<ProgramMachine, 2>> find_machines(DiffCommandOptions& o
     machines[1].scene = scenes.of(*machines[1].configuration, program_path(options.new_file));
   }
   if (has_mistakes({scenes.mistakes(options.reader_language())})) return std::nullopt;
+  if (options.verify)
+    for (std::size_t side = 0; side < 2; ++side)
+      if (!machines[side].scene)
+        complain(dialect::format(kNoScene, options.reader_language(), side == 0 ? options.old_file : options.new_file));
   return std::array{std::move(machines[0]), std::move(machines[1])};
 }
 

@@ -326,6 +326,9 @@ TEST_F(IsodiffCommand, ComparesContactsAndRemovedVolume) {
   for (const json& each : both.at("findings")) contacts += each.at("code") == "E152" ? 1 : 0;
   EXPECT_EQ(contacts, alone.at("verification").at("contacts").size());
   EXPECT_EQ(diff({"--verify", setups + "panel.iso", setups + "panel.iso"}).out, "no difference\n");
+  const CommandResult without = diff({"--verify", setups + "panel.iso", "old.iso"});
+  EXPECT_EQ(without.status, 1);
+  EXPECT_EQ(without.err, "isodiff: old.iso: no setup is for this program, so contacts and material are not compared\n");
 }
 
 TEST_F(IsodiffCommand, ComparesOnAllPaths) {

@@ -54,6 +54,9 @@ INSTANTIATE_TEST_SUITE_P(
         FindingCase{"OtherEndOfTheTravel", with("X130", "X-30"), "gone E160 4|-\nnew E160 -|4\n"},
         FindingCase{"FeedWithin", with("F9000", "F4000"), "gone W131 6|-\n"},
         FindingCase{"FeedFurtherAbove", with("F9000", "F9500"), "changed W131 6|6\n"},
+        FindingCase{"TheSameElsewhere",
+                    "M06 T101001\nS12000 M03\nG00 X10 Y20\nX50\nG01 Y50 F9000\nX140\nX20\nY51\nX130\nX20\nM02\n",
+                    "gone E160 4|-\nnew E160 -|9\n"},
         FindingCase{"AllGone", "M02\n", "gone E160 4|-\ngone W131 6|-\ngone E160 7|-\n"}),
     [](const auto& info) { return info.param.name; });
 
