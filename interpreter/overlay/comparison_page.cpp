@@ -16,6 +16,11 @@ std::string comparison_facts(OrderedJson english, const OrderedJson& italian) {
   return english.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
+std::string comparison_facts(const comparison::ComparedRuns& runs) {
+  return comparison_facts(OrderedJson::parse(comparison::json_of(runs, dialect::Language::English)),
+                          OrderedJson::parse(comparison::json_of(runs, dialect::Language::Italian)));
+}
+
 std::string alignment_bytes(const std::vector<AlignedLines>& lines) {
   plot::PackedBytes bytes;
   for (const AlignedLines& each : lines) {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "interpreter/comparison/comparison_text.h"
 #include "interpreter/overlay/aligned_lines.h"
 #include "interpreter/plot/picture.h"
 #include "interpreter/simulation/timing.h"
@@ -14,6 +15,8 @@ namespace isocnc::overlay {
 /// The changes for a view, as JSON: what isodiff writes, given in both languages, with the text of each change as
 /// `{"en", "it"}`.
 std::string comparison_facts(nlohmann::ordered_json english, const nlohmann::ordered_json& italian);
+/// The same of two runs alone, as comparison::json_of() writes it.
+std::string comparison_facts(const comparison::ComparedRuns& runs);
 
 /// The alignment for a view: three packed numbers for each entry.
 std::string alignment_bytes(const std::vector<AlignedLines>& lines);

@@ -102,6 +102,16 @@ TEST(ComparisonFacts, HoldTheChangesInBothLanguages) {
   EXPECT_EQ(facts.at("same"), false);
 }
 
+TEST(ComparisonFacts, AreThoseOfTwoRunsAlone) {
+  const comparison::RecordedRun old_run = comparison::recorded(kStart + "X100\n" + kEnd);
+  const comparison::RecordedRun new_run = comparison::recorded(kStart + "X101\n" + kEnd);
+  const auto changes = comparison::compare(old_run, new_run, {});
+  const auto facts = nlohmann::json::parse(comparison_facts({old_run, new_run, changes}));
+  ASSERT_EQ(facts.at("changes").size(), 1U);
+  EXPECT_EQ(facts.at("changes")[0].at("text"), (nlohmann::json{{"en", "moved by X1"}, {"it", "spostato di X1"}}));
+  EXPECT_EQ(facts.at("changes")[0].at("old"), (nlohmann::json{5, 6}));
+}
+
 TEST(AlignmentBytes, AreThreePackedNumbersForEachEntry) {
   EXPECT_EQ(alignment_bytes({{1, 1, 300}, {0, 2, 1}}), std::string("\x01\x01\xac\x02\x00\x02\x01", 7));
 }
