@@ -462,9 +462,9 @@ ExitStatus diff_main(int argc, char** argv) {
               "Un errore nel comando o in un isocnc.json, oppure qualcosa che non si è potuto leggere o scrivere."}}},
        .see_also = {"isorun", "isofmt", "isolint"}});
   const command_line::ProgramOption programs[] = {
-      program.add_option("OLD", options.old_file, {" ", " "},
-                         {"The old program, REV:FILE of git, or - for standard input",
-                          "Il vecchio programma, REV:FILE di git, o - per lo standard input"}),
+      program.add_option(
+          "OLD", options.old_file, {" ", " "},
+          {"The old program, REV:FILE of git, or - for stdin", "Il vecchio programma, REV:FILE di git, o - per stdin"}),
       program.add_option("NEW", options.new_file, {" ", " "},
                          {"The new program, in the same ways", "Il nuovo programma, negli stessi modi"})};
   program.add_option(
@@ -496,7 +496,7 @@ ExitStatus diff_main(int argc, char** argv) {
       {"Read this, not the isocnc.json above a program", "Legge questo, non l'isocnc.json sopra un programma"});
   const auto git = program.add_flag(
       "--git", is_for_git,
-      {"As git calls its diff drivers; the last option", "Come git chiama i suoi driver di diff; è l'ultima opzione"});
+      {"As git calls its diff drivers; the last option", "Come git chiama i driver di diff; è l'ultima opzione"});
   program
       .add_flag("--exit-code", options.has_exit_code,
                 {"With --git: exit with 1 if they differ", "Con --git: stato 1 se differiscono"})

@@ -32,7 +32,7 @@ RevisionRun run_revision(const Revision& revision, running::RunOptions options,
       .warning = [&](const simulation::RunWarning& warning) { findings.take(warning); },
       .made =
           [&](const simulation::TimedEvent& timed, kinematics::MadeMove* made) {
-            if (made != nullptr) findings.take(timed.event.line, *made);
+            if (made != nullptr) findings.take(timed.event, *made);
             if (verifier) verifier->take(timed);
           },
       .stretch = {},

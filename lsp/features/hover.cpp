@@ -166,7 +166,8 @@ class HoverWriter {
       const auto coordinate = [&](int axis) {
         return agreement.of([&](const LineRun& run) { return tip(run)[axis] / mm_per_unit; });
       };
-      rows.push_back(fmt::format("- {}: X{} Y{} Z{} B{} C{}", name.in(language_), coordinate(0), coordinate(1),
+      rows.push_back(fmt::format("- {}{}: X{} Y{} Z{} B{} C{}", name.in(language_),
+                                 dialect::inches_note(is_in_inches_, language_), coordinate(0), coordinate(1),
                                  coordinate(2), agreement.of([](const LineRun& run) { return run.move->to.b; }),
                                  agreement.of([](const LineRun& run) { return run.move->to.c; })));
     };

@@ -198,7 +198,7 @@ TEST(IsorunMachine, SaysThatItsLengthsAreInMillimetersWhereTheProgramHasInches) 
     return run_command({"isorun", "-"}, {.input = "M06 T101001\n" + unit + "G00 X1\nM02\n"}).out;
   };
   EXPECT_THAT(summary("G70\n"), HasSubstr("\nlengths and positions: in mm, also of blocks under G70\n"
-                                         "final position (machine): X25.400 "));
+                                          "final position (machine): X25.400 "));
   EXPECT_THAT(summary(""), testing::Not(HasSubstr("in mm, also")));
 }
 

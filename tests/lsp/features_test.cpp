@@ -44,8 +44,8 @@ TEST(Hover, ExplainsEachWordWhereItStands) {
   EXPECT_THAT(hover(kProgram, 0, 0), HasSubstr("tool change"));
   EXPECT_THAT(hover(kProgram, 0, 5), HasSubstr("head 1, holder 1, tool 1"));
   EXPECT_THAT(hover(kProgram, 1, 1), HasSubstr("I.3.2"));
-  EXPECT_THAT(hover(kProgram, 2, 8), HasSubstr("workpiece frame: X25.4 Y50.8 Z25.4 B0 C0"));
-  EXPECT_THAT(hover(kProgram, 2, 8), HasSubstr("machine frame: X125.4 Y50.8 Z25.4 B0 C0"));
+  EXPECT_THAT(hover(kProgram, 2, 8), HasSubstr("workpiece frame (inches): X1 Y2 Z1 B0 C0"));
+  EXPECT_THAT(hover(kProgram, 2, 8), HasSubstr("machine frame (inches): X4.937 Y2 Z1 B0 C0"));
   EXPECT_THAT(hover(kProgram, 3, 9), HasSubstr("length 4.6 mm"));
   EXPECT_THAT(hover(kProgram, 4, 1), HasSubstr("center X40 Y50.8 Z25.4, radius 10 mm, sweep -180°, length 31.4159 mm"));
   EXPECT_THAT(hover(kProgram, 5, 3), HasSubstr("compared: line 7"));

@@ -68,11 +68,11 @@ TEST_F(Obstacles, NearestToAMotionIsNamedWithItsDistance) {
 TEST_F(Obstacles, UnderG70DistancesAreInInches) {
   start();
   open("M06 T101001\nG00 X0 Y0 Z10\nG70\nG01 X2 F40\nX3.378\nX8\nM02\n");
-  EXPECT_EQ(last_of_hover(1), "nearest: clamp 2, 90 mm");
+  EXPECT_EQ(last_of_hover(1), "nearest: clamp 2, 89.4 mm");   // To the nose: 40 mm aside, 80 mm above.
   EXPECT_EQ(last_of_hover(3), "nearest: clamp 2, 1.543 in");  // 39.2 mm
   EXPECT_EQ(last_of_hover(4), "nearest: clamp 2, 0.165 in");
   EXPECT_EQ(last_of_hover(5), "hits clamp 2, 0.787 in deep");
-  EXPECT_THAT(hover(3), HasSubstr("workpiece frame: X2 Y0 Z0.3937"));
+  EXPECT_THAT(hover(3), HasSubstr("workpiece frame (inches): X2 Y0 Z0.3937"));
   EXPECT_THAT(hover(3), HasSubstr("length 2 in"));
 }
 
