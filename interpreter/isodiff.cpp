@@ -97,6 +97,9 @@ constexpr Text kNoPage{"this isodiff writes no html: it was built without npm, w
 constexpr Text kOnePath{"--format html shows both programs on one path: name it by --vgpl instead of --all-paths",
                         "--format html mostra i due programmi su una sola via: indicarla con --vgpl invece di "
                         "--all-paths"};
+constexpr Text kNoFindings{
+    "--format html shows no contacts and no material: compare them by text or json, without html",
+    "--format html non mostra né contatti né materiale: confrontarli con text o json, senza html"};
 constexpr Text kPageToTerminal{"--format html writes a page, which a terminal does not show: name a file with --output",
                                "--format html scrive una pagina, che un terminale non mostra: indicare un file con "
                                "--output"};
@@ -181,6 +184,10 @@ bool can_write_page(const DiffCommandOptions& options) {
   }
   if (options.all_paths) {
     complain(kOnePath.in(options.reader_language()));
+    return false;
+  }
+  if (options.verify) {
+    complain(kNoFindings.in(options.reader_language()));
     return false;
   }
   if (options.has_output_file() || !system::is_terminal(system::kStandardOutput)) return true;

@@ -143,6 +143,8 @@ TEST_F(IsodiffCommand, WritesNoPageToATerminal) {
 TEST_F(IsodiffCommand, WritesNoPageOverAProgram) {
   EXPECT_EQ(diff({"--format", "html", "--output", "new.iso", "old.iso", "new.iso"}).status, 2);
   EXPECT_EQ(text_of_file(folder_.path("new.iso")), kNew);
+  EXPECT_THAT(diff({"--format", "html", "--verify", "--output", "page.html", "old.iso", "new.iso"}).err,
+              testing::AnyOf(HasSubstr("shows no contacts and no material"), HasSubstr("npm")));
   EXPECT_THAT(diff({"--format", "html", "--all-paths", "--output", "page.html", "old.iso", "new.iso"}).err,
               testing::AnyOf(HasSubstr("--vgpl"), HasSubstr("npm")));
   // Nothing is left of a page where a program cannot be read.
