@@ -108,6 +108,25 @@ test('variables, expressions, the console and goto', async () => {
   assert.equal(await client.stop(), 0);
 });
 
+test('runs to the first difference from another program, forward and backward', async () => {
+  const program = example('pocket.iso');
+  const text = fs.readFileSync(program, 'utf8');
+  const line = text.split('\n').findIndex((each) => each.includes('G01 Z-12 ')) + 1;
+  const other = { text: text.replace('G01 Z-12 ', 'G01 Z-11.8 '), name: 'last.iso' };
+  const client = await Client.start({ program, stopOnEntry: true });
+  await client.request('configurationDoneRequest');
+  await client.event('stopped');
+  await client.custom('isocnc/runToDifference', other);
+  const { reason, description } = await client.event('stopped');
+  assert.deepEqual([reason, description], ['difference', `first difference: moved by Z-0.2, lines ${line}-${line + 11} of last.iso`]);
+  assert.equal(await client.line(), line);
+  await client.run('nextRequest');
+  await client.custom('isocnc/runToDifference', other);
+  await client.event('stopped');
+  assert.equal(await client.line(), line);
+  assert.equal(await client.stop(), 0);
+});
+
 test('keeps pace with the clock, tells where it is, and pauses', async () => {
   const client = await Client.start({ program: example('pocket.iso'), speed: 1 });
   await client.request('configurationDoneRequest');
@@ -337,6 +356,6 @@ test('every request has been made', () => {
   const folder = path.join(root, 'debugger/requests');
   const commands = fs.readdirSync(folder)
     .filter((file) => file.endsWith('.cpp') && file !== 'request.cpp')
-    .map((file) => fs.readFileSync(path.join(folder, file), 'utf8').match(/\bon<&\w+>\(\s*"(\w+)"/)?.[1] ?? file);
+    .map((file) => fs.readFileSync(path.join(folder, file), 'utf8').match(/\bon<&\w+>\(\s*"([\w/]+)"/)?.[1] ?? file);
   assert.deepEqual(commands.filter((command) => !asked.has(command)), []);
 });
