@@ -280,6 +280,27 @@ TEST(Comparison, ComparesTheWholePathOfRapidsThatTurn) {
   EXPECT_GT(changes[0].distance.value_or(0), 1);
 }
 
+/// Of a contour that is larger by 0.01 mm each motion is moved by another vector, though neighbors are moved by the
+/// same within the tolerance.
+TEST(Comparison, NamesAContourOfAnotherSizeOnce) {
+  const auto contour = [](double radius) {
+    std::string program = kHead + fmt::format("G00 X{:.4f} Y0\nG01 Z-5 F1000\n", radius);
+    for (int i = 1; i <= 100; ++i) {
+      const double angle = i * std::acos(-1.0) / 50;
+      program += fmt::format("X{:.4f} Y{:.4f}\n", radius * std::cos(angle), radius * std::sin(angle));
+    }
+    return program + "G00 Z40\nX0 Y0\nM02\n";
+  };
+  EXPECT_EQ(shown(changes_between(contour(100), contour(100.01))), "moved 4-106|4-106: moved by up to 0.01 mm\n");
+  // Two increments that change remain two.
+  const auto steps = [](const std::string& first, const std::string& second) {
+    const std::string rest = "Y5\nX-18\nY6\nX30\nZ-1\nY-7\n";
+    return kHead + "G91\n" + first + "\n" + rest + second + "\n" + rest + "M02\n";
+  };
+  EXPECT_EQ(shown(changes_between(steps("X20", "X21"), steps("X21", "X21.2"))),
+            "moved 5-11|5-11: moved by X1\nmoved 12-18|12-18: moved by X1.2\n");
+}
+
 /// In a frame that is turned each motion is moved otherwise, and all of them are one change.
 TEST(Comparison, NamesATurnedFrameOnce) {
   const auto in_frame = [](const std::string& angle) {
