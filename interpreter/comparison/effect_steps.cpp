@@ -17,12 +17,14 @@ struct Effect {
   std::size_t motions = 0;  ///< Number of motions of the part before it.
 };
 
-std::vector<Effect> effects_of(const RecordedRun& run, std::size_t begin, std::size_t end) {
+/// `motions` are the indices of the motions of the part.
+std::vector<Effect> effects_of(const RecordedRun& run, std::size_t begin, std::size_t end,
+                               const std::vector<std::size_t>& motions) {
   std::vector<Effect> effects;
-  std::size_t motions = 0;
   for (std::size_t i = begin; i < end; ++i) {
-    if (!run.actions[i].is_motion()) effects.push_back({i, motions});
-    if (run.actions[i].is_motion()) ++motions;
+    if (run.actions[i].is_motion()) continue;
+    const auto next = std::lower_bound(motions.begin(), motions.end(), i);
+    effects.push_back({i, static_cast<std::size_t>(next - motions.begin())});
   }
   return effects;
 }
@@ -174,8 +176,8 @@ class StepFinder {
 }  // namespace
 
 std::vector<EffectStep> effect_steps(const RunPair& runs, const ActionRanges& part, const MotionBlock& motions) {
-  std::vector<Effect> a = effects_of(runs.a, part.a_begin, part.a_end);
-  std::vector<Effect> b = effects_of(runs.b, part.b_begin, part.b_end);
+  std::vector<Effect> a = effects_of(runs.a, part.a_begin, part.a_end, motions.a_actions);
+  std::vector<Effect> b = effects_of(runs.b, part.b_begin, part.b_end, motions.b_actions);
   if (a.empty() && b.empty()) return {};
   const PlacesOnWay places(motions, runs.tolerance);
   return StepFinder(runs, std::move(a), std::move(b), places).steps();
