@@ -200,6 +200,7 @@ std::vector<BehaviorChange> ChangeList::take() {
   close_shift();
   close_feed();
   name_turned_frames();
+  join_moved_rows();
   join_moved_blocks();
   sort();
   return std::move(changes_);
@@ -270,6 +271,58 @@ void ChangeList::name_turned_frames() {
   for (const auto& [frames, first] : known) {
     BehaviorChange& whole = changes_[first];
     const ActionRanges& all = places_[first];
+    whole.old_lines = lines_of(runs_.a, all.a_begin, all.a_end);
+    whole.new_lines = lines_of(runs_.b, all.b_begin, all.b_end);
+    whole.old_motions = motion_count(runs_.a, all.a_begin, all.a_end);
+    whole.new_motions = motion_count(runs_.b, all.b_begin, all.b_end);
+  }
+  remove(is_joined);
+}
+
+/// Whether the motions of a change go on from those of another one, moved a bit otherwise. Two edits that move what
+/// follows them by different vectors remain two.
+bool ChangeList::is_one_row(std::size_t first, std::size_t next) const {
+  const ActionRanges& one = places_[first];
+  const ActionRanges& other = places_[next];
+  const auto has_nothing = [](const RecordedRun& run, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (run.actions[i].is_motion() || run.actions[i].kind == ActionKind::Tool) return false;
+    return begin <= end;
+  };
+  if (!has_nothing(runs_.a, one.a_end, other.a_begin) || !has_nothing(runs_.b, one.b_end, other.b_begin)) return false;
+  const bool are_rows = changes_[first].shift && changes_[next].shift;
+  const Vec3 before = changes_[first].shift.value_or(b(one.b_end - 1).to.tip - a(one.a_end - 1).to.tip);
+  const Vec3 after = changes_[next].shift.value_or(b(other.b_begin).to.tip - a(other.a_begin).to.tip);
+  constexpr double kBetweenRows = 4;  // A row ends where its vector is off by the tolerance.
+  return (after - before).norm() <=
+         (are_rows ? kBetweenRows * options_.tolerance : std::max(before.norm(), after.norm()) / 2);
+}
+
+/// Motions of which each is moved by another vector than the one before it fall into rows of those that are the same
+/// within the tolerance. Together they are one change.
+void ChangeList::join_moved_rows() {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < changes_.size(); ++i)
+    if (changes_[i].kind == ChangeKind::Moved) rows.push_back(i);
+  std::sort(rows.begin(), rows.end(),
+            [&](std::size_t left, std::size_t right) { return places_[left].a_begin < places_[right].a_begin; });
+  std::vector<bool> is_joined(changes_.size());
+  for (std::size_t i = 1; i < rows.size(); ++i) is_joined[rows[i]] = is_one_row(rows[i - 1], rows[i]);
+  for (std::size_t i = rows.size(); i-- > 1;) {
+    const std::size_t first = rows[i - 1];
+    const std::size_t next = rows[i];
+    if (!is_joined[next]) continue;
+    BehaviorChange& whole = changes_[first];
+    const BehaviorChange& rest = changes_[next];
+    ActionRanges& all = places_[first];
+    all.a_end = places_[next].a_end;
+    all.b_end = places_[next].b_end;
+    // What turns and has no distance is nowhere else.
+    const auto is_known = [](const BehaviorChange& change) { return change.distance || change.turned != 0; };
+    const double farthest = std::max(whole.distance.value_or(0), rest.distance.value_or(0));
+    whole.distance = is_known(whole) && is_known(rest) && farthest > 0 ? std::optional(farthest) : std::nullopt;
+    whole.turned = std::max(whole.turned, rest.turned);
+    whole.shift.reset();
     whole.old_lines = lines_of(runs_.a, all.a_begin, all.a_end);
     whole.new_lines = lines_of(runs_.b, all.b_begin, all.b_end);
     whole.old_motions = motion_count(runs_.a, all.a_begin, all.a_end);

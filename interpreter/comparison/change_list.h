@@ -66,6 +66,8 @@ class ChangeList {
   bool is_by_frames(const ActionRanges& at) const;
   bool is_by_frames(const MachineAction& left, const MachineAction& right) const;
   void join_moved_blocks();
+  void join_moved_rows();
+  bool is_one_row(std::size_t first, std::size_t next) const;
   void remove(const std::vector<bool>& is_removed);
   bool is_same_block(const ActionRanges& removed, const ActionRanges& added) const;
   void sort();

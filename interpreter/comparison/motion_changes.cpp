@@ -44,11 +44,10 @@ class MotionNamer {
       changes_.follow_shift(at, step.shift);
       if (step.kind == MotionStep::Kind::Pair) {
         if (!has_way) name_way(at.a_begin, at.b_begin, step.shift);
-        changes_.compare_feeds(at.a_begin, at.b_begin);
+        compare_feeds(block, step.motions.a_begin, step.motions.b_begin);
       } else {
-        same_step(motions, {step.motions.a_begin, step.motions.b_begin}, step.shift, [&](std::size_t i, std::size_t k) {
-          changes_.compare_feeds(block.a_actions[i], block.b_actions[k]);
-        });
+        same_step(motions, {step.motions.a_begin, step.motions.b_begin}, step.shift,
+                  [&](std::size_t i, std::size_t k) { compare_feeds(block, i, k); });
       }
     }
     name_group(group, nullptr);
@@ -58,16 +57,24 @@ class MotionNamer {
   const MachineAction& a(std::size_t i) const { return runs_.a.actions[i]; }
   const MachineAction& b(std::size_t i) const { return runs_.b.actions[i]; }
 
+  /// Two motions of a block, with all of their parts.
+  void compare_feeds(const MotionBlock& block, std::size_t i, std::size_t k) {
+    changes_.compare_feeds(block.a_firsts[i], block.b_firsts[k]);
+    changes_.compare_feeds(block.a_actions[i], block.b_actions[k]);
+  }
+
   /// The actions from the first to the last one of some motions.
   static ActionRanges actions_of(const MotionBlock& block, const ActionRanges& motions, const ActionRanges& whole) {
-    const auto range = [](const std::vector<std::size_t>& actions, std::size_t begin, std::size_t end,
-                          std::size_t whole_end) {
-      const std::size_t first = begin < actions.size() ? actions[begin] : whole_end;
+    const auto range = [](const std::vector<std::size_t>& firsts, const std::vector<std::size_t>& actions,
+                          std::size_t begin, std::size_t end, std::size_t whole_end) {
+      const std::size_t first = begin < actions.size() ? firsts[begin] : whole_end;
       return std::pair(first, begin < end ? actions[end - 1] + 1 : first);
     };
     ActionRanges at;
-    std::tie(at.a_begin, at.a_end) = range(block.a_actions, motions.a_begin, motions.a_end, whole.a_end);
-    std::tie(at.b_begin, at.b_end) = range(block.b_actions, motions.b_begin, motions.b_end, whole.b_end);
+    std::tie(at.a_begin, at.a_end) =
+        range(block.a_firsts, block.a_actions, motions.a_begin, motions.a_end, whole.a_end);
+    std::tie(at.b_begin, at.b_end) =
+        range(block.b_firsts, block.b_actions, motions.b_begin, motions.b_end, whole.b_end);
     return at;
   }
 
@@ -111,7 +118,7 @@ class MotionNamer {
     for (const MotionStep& step : group.steps) {
       if (step.kind != MotionStep::Kind::Pair) continue;
       const auto [i, k] = group.pair(step);
-      if (!a(i).is_inverse_time) changes_.compare_feeds(i, k);
+      if (!a(i).is_inverse_time) compare_feeds(group.block, step.motions.a_begin, step.motions.b_begin);
     }
     if (pairs == 0 && (only_a == 0 || only_b == 0)) {
       if (closing != nullptr && closing->kind == MotionStep::Kind::Pair) {
@@ -185,9 +192,10 @@ class MotionNamer {
       if (group.steps[i].kind != (i < first_pair ? only : MotionStep::Kind::Pair)) return false;
       if (i < first_pair) continue;
       const auto [left, right] = group.pair(group.steps[i]);
-      if ((b(right).from.tip - a(left).from.tip - *common).norm() > options_.tolerance ||
-          !goes_same_way(runs_, a(left), b(right)))
-        return false;
+      const ActionRanges& motions = group.steps[i].motions;
+      const Vec3 from =
+          group.block.b.actions[motions.b_begin].from.tip - group.block.a.actions[motions.a_begin].from.tip;
+      if ((from - *common).norm() > options_.tolerance || !goes_same_way(runs_, a(left), b(right))) return false;
     }
     changes_.add(only == MotionStep::Kind::OnlyInB ? ChangeKind::Added : ChangeKind::Removed,
                  group.actions(0, first_pair - 1));

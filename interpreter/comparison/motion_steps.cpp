@@ -1,6 +1,10 @@
 #include "interpreter/comparison/motion_steps.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
 
 #include "interpreter/comparison/gap_steps.h"
 
@@ -25,6 +29,142 @@ std::vector<std::size_t> take_motions(const RecordedRun& run, std::size_t begin,
   }
   return indices;
 }
+
+/// Joins lines of which the first ends on the way of both, with the same feed, where that leaves fewer differences.
+class LineJoiner {
+ public:
+  LineJoiner(const RunPair& runs, const DifferentPart& part, MotionBlock& block)
+      : runs_(runs), part_(part), block_(block), a_(block.a.actions.size()), b_(block.b.actions.size()) {
+    find_joints(block.a, block.a_actions, a_);
+    find_joints(block.b, block.b_actions, b_);
+  }
+
+  /// Says whether it has joined any.
+  bool join() {
+    if (!has_joint(a_) && !has_joint(b_)) return false;
+    if (is_too_large(a_.size(), b_.size())) return false;
+    if (runs_.budget != nullptr && !runs_.budget->take_cells(a_.size(), b_.size())) return false;
+    choose();
+    keep_others(block_.a, a_);
+    keep_others(block_.b, b_);
+    if (!has_joint(a_) && !has_joint(b_)) return false;
+    join(block_.a, block_.a_actions, block_.a_firsts, a_);
+    join(block_.b, block_.b_actions, block_.b_firsts, b_);
+    return true;
+  }
+
+ private:
+  /// The end of a motion.
+  struct MotionEnd {
+    bool is_joint = false;   ///< It may be left out, and in the end: it is.
+    bool is_paired = false;  ///< It takes the place of one of the other run.
+    bool is_line = false;    ///< So does its motion, and both are lines.
+  };
+  using Ends = std::vector<MotionEnd>;
+  enum class Step : std::uint8_t { Pair, OnlyInA, OnlyInB };
+
+  static bool has_joint(const Ends& ends) {
+    return std::any_of(ends.begin(), ends.end(), [](const MotionEnd& end) { return end.is_joint; });
+  }
+
+  /// Whether a place lies on the line between two others.
+  bool is_between(const geometry::Pose& from, const geometry::Pose& place, const geometry::Pose& to) const {
+    const Vec3 along = to.tip - from.tip;
+    const double square = along.squaredNorm();
+    if (!(square > 0)) return false;
+    const double part = along.dot(place.tip - from.tip) / square;
+    const double allowed = runs_.tolerance / 2;
+    return part > 0 && part < 1 && (place.tip - from.tip - part * along).norm() <= allowed &&
+           std::abs(place.b - from.b - part * (to.b - from.b)) <= allowed &&
+           std::abs(place.c - from.c - part * (to.c - from.c)) <= allowed;
+  }
+
+  void find_joints(const RecordedRun& run, const std::vector<std::size_t>& actions, Ends& ends) const {
+    constexpr double kSameFeed = 1e-6;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const MachineAction& one = run.actions[i];
+      const MachineAction& next = run.actions[i + 1];
+      ends[i].is_joint = actions[i] + 1 == actions[i + 1] && one.is_line() && next.is_line() &&
+                         one.is_rapid == next.is_rapid && !one.is_inverse_time && !next.is_inverse_time &&
+                         std::abs(one.feed - next.feed) <= kSameFeed * one.feed &&
+                         is_between(one.from, one.to, next.to);
+    }
+  }
+
+  float pair_cost(const MachineAction& a, const MachineAction& b) const {
+    if (ends_together(runs_, a, b, part_.before) || ends_together(runs_, a, b, part_.after))
+      return goes_same_way(runs_, a, b) ? 0.F : 0.5F;
+    const double distance = (b.to.tip - a.to.tip - part_.before).norm();
+    const double length = 1 + (a.to.tip - a.from.tip).norm() + (b.to.tip - b.from.tip).norm();
+    return 1 + 0.1F * static_cast<float>(std::min(1.0, distance / length));
+  }
+
+  /// Decides which joints are left out: those without a place of the other run that takes theirs.
+  void choose() {
+    const auto only = [](const MotionEnd& end) { return end.is_joint ? 0.25F : 1.F; };
+    const std::size_t width = b_.size() + 1;
+    std::vector<Step> steps((a_.size() + 1) * width, Step::OnlyInB);
+    std::vector<float> costs(width);
+    for (std::size_t k = 1; k < width; ++k) costs[k] = costs[k - 1] + only(b_[k - 1]);
+    for (std::size_t i = 1; i <= a_.size(); ++i) {
+      float diagonal = costs[0];
+      costs[0] += only(a_[i - 1]);
+      steps[i * width] = Step::OnlyInA;
+      for (std::size_t k = 1; k < width; ++k) {
+        const float pair = diagonal + pair_cost(block_.a.actions[i - 1], block_.b.actions[k - 1]);
+        const float only_a = costs[k] + only(a_[i - 1]);
+        const float only_b = costs[k - 1] + only(b_[k - 1]);
+        diagonal = costs[k];
+        costs[k] = std::min({pair, only_a, only_b});
+        steps[i * width + k] = costs[k] == pair ? Step::Pair : costs[k] == only_a ? Step::OnlyInA : Step::OnlyInB;
+      }
+    }
+    for (std::size_t i = a_.size(), k = b_.size(); i > 0 || k > 0;) {
+      const Step step = steps[i * width + k];
+      if (step != Step::OnlyInB) --i;
+      if (step != Step::OnlyInA) --k;
+      if (step != Step::Pair) continue;
+      const bool are_lines = block_.a.actions[i].is_line() && block_.b.actions[k].is_line();
+      a_[i] = {false, true, are_lines};
+      b_[k] = {false, true, are_lines};
+    }
+  }
+
+  /// Keeps the parts of what is no line as a whole, and of lines that the other run does not have.
+  void keep_others(const RecordedRun& run, Ends& ends) const {
+    for (std::size_t begin = 0, end = 0; end < ends.size(); begin = ++end) {
+      while (ends[end].is_joint) ++end;  // The last one is none.
+      bool is_line = ends[end].is_line && (begin == 0 || ends[begin - 1].is_paired);
+      for (std::size_t i = begin; i < end; ++i)
+        is_line = is_line && is_between(run.actions[begin].from, run.actions[i].to, run.actions[end].to);
+      for (std::size_t i = begin; i < end; ++i) ends[i].is_joint = is_line;
+    }
+  }
+
+  static void join(RecordedRun& run, std::vector<std::size_t>& actions, std::vector<std::size_t>& firsts,
+                   const Ends& ends) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      if (ends[i].is_joint) {
+        run.actions[i + 1].from = run.actions[i].from;
+        firsts[i + 1] = firsts[i];
+        continue;
+      }
+      run.actions[kept] = run.actions[i];
+      actions[kept] = actions[i];
+      firsts[kept++] = firsts[i];
+    }
+    run.actions.resize(kept);
+    actions.resize(kept);
+    firsts.resize(kept);
+  }
+
+  const RunPair& runs_;
+  const DifferentPart& part_;
+  MotionBlock& block_;
+  Ends a_;
+  Ends b_;
+};
 
 /// Goes through the pieces of a block.
 class StepMaker {
@@ -132,21 +272,14 @@ DifferentPart part_at(const std::vector<AlignedPiece>& pieces, std::size_t& inde
   return part;
 }
 
-std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart& part) {
-  const ActionRanges& at = part.actions;
+/// The steps through the motions of a block. `are_all` says that nothing else stands between them.
+static std::optional<std::vector<MotionStep>> steps_of(const RunPair& motions, const DifferentPart& part,
+                                                       bool are_all) {
   const std::size_t closing = part.is_closed ? 1 : 0;
-  if (is_too_large(at.a_end - at.a_begin - closing, at.b_end - at.b_begin - closing)) return std::nullopt;
-  MotionBlock block;
-  block.a_actions = take_motions(runs.a, at.a_begin, at.a_end, block.a);
-  block.b_actions = take_motions(runs.b, at.b_begin, at.b_end, block.b);
-  const RunPair motions{block.a, block.b, runs.tolerance, runs.budget};
-  const std::size_t a_count = block.a_actions.size();
-  const std::size_t b_count = block.b_actions.size();
-  if (runs.budget != nullptr &&
-      !runs.budget->take_cells(at.a_end - at.a_begin - a_count, at.b_end - at.b_begin - b_count))
-    return std::nullopt;
+  const std::size_t a_count = motions.a.actions.size();
+  const std::size_t b_count = motions.b.actions.size();
   std::vector<AlignedPiece> pieces;
-  if (a_count < at.a_end - at.a_begin || b_count < at.b_end - at.b_begin) {
+  if (!are_all) {
     // What stands between the motions has kept them apart.
     pieces = align(motions, part.before);
   } else {
@@ -157,8 +290,34 @@ std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart
   }
   StepMaker maker(motions, part);
   if (!maker.follow(pieces)) return std::nullopt;
-  block.steps = maker.take();
-  return block;
+  return maker.take();
+}
+
+std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart& part) {
+  const ActionRanges& at = part.actions;
+  const std::size_t closing = part.is_closed ? 1 : 0;
+  if (is_too_large(at.a_end - at.a_begin - closing, at.b_end - at.b_begin - closing)) return std::nullopt;
+  MotionBlock block;
+  block.a_actions = block.a_firsts = take_motions(runs.a, at.a_begin, at.a_end, block.a);
+  block.b_actions = block.b_firsts = take_motions(runs.b, at.b_begin, at.b_end, block.b);
+  const RunPair motions{block.a, block.b, runs.tolerance, runs.budget};
+  const std::size_t a_count = block.a_actions.size();
+  const std::size_t b_count = block.b_actions.size();
+  if (runs.budget != nullptr &&
+      !runs.budget->take_cells(at.a_end - at.a_begin - a_count, at.b_end - at.b_begin - b_count))
+    return std::nullopt;
+  const bool are_all = a_count == at.a_end - at.a_begin && b_count == at.b_end - at.b_begin;
+  auto steps = steps_of(motions, part, are_all);
+  if (!steps) return std::nullopt;
+  block.steps = std::move(*steps);
+  if (block.is_same_path()) return block;
+  MotionBlock joined = block;
+  const RunPair joined_motions{joined.a, joined.b, runs.tolerance, runs.budget};
+  if (!LineJoiner(joined_motions, part, joined).join()) return block;
+  steps = steps_of(joined_motions, part, are_all);
+  if (!steps) return block;
+  joined.steps = std::move(*steps);
+  return joined;
 }
 
 }  // namespace isocnc::comparison

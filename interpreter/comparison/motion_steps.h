@@ -36,8 +36,11 @@ struct MotionStep {
 struct MotionBlock {
   RecordedRun a;  ///< Only actions, arcs, tools and kinematics.
   RecordedRun b;
-  std::vector<std::size_t> a_actions;  ///< The index of each motion in the whole run.
+  /// The index of each motion in the whole run; of the last part of a line that is joined from parts.
+  std::vector<std::size_t> a_actions;
   std::vector<std::size_t> b_actions;
+  std::vector<std::size_t> a_firsts;  ///< The index of its first part.
+  std::vector<std::size_t> b_firsts;
   std::vector<MotionStep> steps;  ///< Through all motions of both, in their order.
 
   bool is_same_path() const;
@@ -55,8 +58,9 @@ struct DifferentPart {
 /// piece: `index` becomes that of the part's last piece.
 DifferentPart part_at(const std::vector<AlignedPiece>& pieces, std::size_t& index);
 
-/// The motions of a part, step by step. None for a part that is too large, or if the budget is used up, also for what
-/// stands between the motions (effect_steps).
+/// The motions of a part, step by step. Lines that only one run has in parts are joined where that leaves fewer
+/// differences: beside a place that is moved, the parts end where nothing is in the other run. None for a part that is
+/// too large, or if the budget is used up, also for what stands between the motions (effect_steps).
 std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart& part);
 
 }  // namespace isocnc::comparison

@@ -320,15 +320,22 @@ class PartNamer {
     return a_motions == 0 ? part.a_begin : block.a_actions[a_motions - 1] + 1;
   }
 
+  static std::string value_together(const RecordedRun& run, std::size_t begin, std::size_t count) {
+    MachineAction action = run.actions[begin];
+    for (std::size_t i = 1; i < count; ++i) action.value += run.actions[begin + i].value;
+    return value_of(run, action);
+  }
+
   /// `place` is that in a.
   void name_effect(const EffectStep& step, std::size_t place) {
     if (step.is_same && step.later == 0) return;
     const std::size_t i = place;
     const std::size_t k = step.b.value_or(0);
-    BehaviorChange& change =
-        changes_.add(kind_of((step.a ? a(i) : b(k)).kind), {i, i + (step.a ? 1 : 0), k, k + (step.b ? 1 : 0)});
-    if (step.a) change.old_value = value_of(runs_.a, a(i));
-    if (step.b) change.new_value = value_of(runs_.b, b(k));
+    const std::size_t a_count = step.a ? step.a_count : 0;
+    const std::size_t b_count = step.b ? step.b_count : 0;
+    BehaviorChange& change = changes_.add(kind_of((step.a ? a(i) : b(k)).kind), {i, i + a_count, k, k + b_count});
+    if (step.a) change.old_value = value_together(runs_.a, i, a_count);
+    if (step.b) change.new_value = value_together(runs_.b, k, b_count);
     if (!step.is_same) return;
     change.later = step.later;
     change.distance = std::abs(step.later);

@@ -211,6 +211,27 @@ TEST(ComparisonProperty, ASingleChangeIsFoundAlone) {
   }
 }
 
+/// Lines that one program has as two are no changes beside a place that is moved, and what stands between the motions
+/// is none, either.
+TEST(ComparisonProperty, APlaceIsMovedAloneBesideLinesInOtherParts) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 1; seed <= tries(); ++seed) {
+    support::Random random(seed);
+    const RandomPart part = random_part(random, random.between(5, 60), random.one_in(4));
+    const std::optional<std::size_t> step = free_step(part, random);
+    if (!step) continue;
+    RandomPart changed = part;
+    changed.steps[*step].to[random.below(3)] += random.one_in(2) ? random.between(10, 60) : random.between(500, 20'000);
+    const WrittenPart before = written(part, {.is_split = random.one_in(2)});
+    const WrittenPart after = written(changed, {.is_split = random.one_in(2)});
+    const std::vector<BehaviorChange> changes = symmetric_changes(before.text, after.text);
+    ASSERT_EQ(changes.size(), 1U) << shown(changes) << failure(seed, before.text, after.text);
+    ASSERT_EQ(changes[0].kind, ChangeKind::Moved) << shown(changes) << failure(seed, before.text, after.text);
+    ++compared;
+  }
+  EXPECT_GT(compared, tries() / 2);
+}
+
 // A path that differs, beside another change.
 
 /// The program as lines.

@@ -105,6 +105,21 @@ const ComparisonCase kCases[] = {
      "shape 5-8|5-8: the same path the other way around\n"},
     {"SplitOnALineBesideAFunction", kPlunged + "M08\nX60\nY50\nM02\n", kPlunged + "M09\nX40\nX60\nY50\nM02\n",
      "function 5|5: M09 instead of M08\n"},
+    {"OtherPartsBesideAMovedLine", kPlunged + "X40\nX70\nY80\nX10 F3000\nY50\nM02\n",
+     kPlunged + "X71\nX70.5 Y50\nX70 Y80\nX10 F3000\nY50\nM02\n", "moved 5-6|5: moved by X1\n"},
+    {"OtherPartsBesideAMovedLineWithAnotherFeed",
+     kHead + "G49\nG01 X55 Y70 B5 F1000\nX100 Y120 B10\nX60 Y70 B0 F2000\nG00 Z200\nM02\n",
+     kHead + "G49\nG01 X100 Y120 B11 F1000\nX80 Y95 B5.5 F2000\nX60 Y70 B0\nG00 Z200\nM02\n",
+     "moved 5-6|5: B or C turned by up to 1 degrees\n"},
+    {"OtherPartsBesideAMovedLineWithADwell", kPlunged + "X40\nX70\nG04 P1\nY80\nX10\nY50\nM02\n",
+     kPlunged + "X70.01\nG04 P1\nX70.005 Y50\nX70 Y80\nX10\nY50\nM02\n", "moved 5-6|5: moved by X0.01\n"},
+    {"OtherPartsBesideAMovedLineWithASpindle", kPlunged + "X40\nX70\nS9000 M03\nY80\nX10\nY50\nM02\n",
+     kPlunged + "X70.01\nS9000 M03\nX70.005 Y50\nX70 Y80\nX10\nY50\nM02\n", "moved 5-6|5: moved by X0.01\n"},
+    {"FeedOfOtherPartsBesideAMovedLine", kPlunged + "X40\nX70\nY80\nX10\nY50\nM02\n",
+     kPlunged + "X71 F1000\nX70 Y80 F2000\nX10\nY50\nM02\n",
+     "moved 5-6|5: moved by X1\nfeed 5-6|5: F1000 instead of F2000\n"},
+    {"PlaceOnALineThatLeavesIt", kPlunged + "X40\nX70\nX99\nY50\nM02\n", kPlunged + "X40\nX70 Y90\nX99 Y20\nY50\nM02\n",
+     "moved 6|6: moved by Y70\n"},
     {"HeightFromWhichToPlunge", kHead + "Z2\nG01 Z-2 F1000\nX50\nM02\n", kHead + "Z1.5\nG01 Z-2 F1000\nX50\nM02\n",
      "moved 4|4: moved by Z-0.5\n"},
     {"RapidInsteadOfHalfAFeedMove", kHead + "G01 X50 F500\nY7\nM02\n", kHead + "G00 X30\nG01 X50 F500\nY7\nM02\n",
@@ -146,6 +161,16 @@ const ComparisonCase kCases[] = {
     {"DwellLaterOnAContour", kPlunged + "X60\nG04 P1\nY50\nX99\nM02\n", kPlunged + "X60\nY50\nG04 P1\nX99\nM02\n",
      "dwell 6|7: dwell of 1 s comes 30 mm later\n"},
     {"DwellAsTwo", kHead + "G04 P1\nX50\nM02\n", kHead + "G04 P0.5\nG04 P0.5\nX50\nM02\n", ""},
+    {"DwellAsTwoBesideAMovedLine", kPlunged + "X60\nG04 P2\nG00 X99\nM02\n",
+     kPlunged + "X61\nG04 P1\nG04 P1\nG00 X99\nM02\n", "moved 5|5: moved by X1\n"},
+    {"DwellAsTwoIsLonger", kHead + "G04 P2\nX50\nM02\n", kHead + "G04 P1.1\nG04 P1.1\nX50\nM02\n",
+     "dwell 4|4-5: dwell of 2.2 s instead of 2 s\n"},
+    {"DwellInOtherPartsBesideAMovedLine", kPlunged + "X60\nG04 P1\nG04 P2\nG04 P3\nG00 X99\nM02\n",
+     kPlunged + "X61\nG04 P2\nG04 P2\nG04 P2.5\nG00 X99\nM02\n",
+     "moved 5|5: moved by X1\ndwell 6-8|6-8: dwell of 6.5 s instead of 6 s\n"},
+    {"OneOfTwoDwellsIsLonger", kPlunged + "X60\nG04 P1\nG04 P2\nG00 X99\nM02\n",
+     kPlunged + "X61\nG04 P1\nG04 P3\nG00 X99\nM02\n",
+     "moved 5|5: moved by X1\ndwell 7|7: dwell of 3 s instead of 2 s\n"},
     {"Dwell", kHead + "G04 P1\nM02\n", kHead + "G04 P1.5\nM02\n", "dwell 4|4: dwell of 1.5 s instead of 1 s\n"},
     {"ExactStop", kSquare, square("X100\n", "X100 G09\n"), "function -|5: added: G09\n"},
     {"Path", kHead + "IF VGPL = 1 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nX110\nX120\nM02\n",
@@ -268,6 +293,27 @@ TEST(Comparison, ComparesTheWholePathOfRapidsThatTurn) {
   ASSERT_EQ(changes.size(), 1U) << shown(changes);
   EXPECT_EQ(changes[0].kind, ChangeKind::Shape);
   EXPECT_GT(changes[0].distance.value_or(0), 1);
+}
+
+/// Of a contour that is larger by 0.01 mm each motion is moved by another vector, though neighbors are moved by the
+/// same within the tolerance.
+TEST(Comparison, NamesAContourOfAnotherSizeOnce) {
+  const auto contour = [](double radius) {
+    std::string program = kHead + fmt::format("G00 X{:.4f} Y0\nG01 Z-5 F1000\n", radius);
+    for (int i = 1; i <= 100; ++i) {
+      const double angle = i * std::acos(-1.0) / 50;
+      program += fmt::format("X{:.4f} Y{:.4f}\n", radius * std::cos(angle), radius * std::sin(angle));
+    }
+    return program + "G00 Z40\nX0 Y0\nM02\n";
+  };
+  EXPECT_EQ(shown(changes_between(contour(100), contour(100.01))), "moved 4-106|4-106: moved by up to 0.01 mm\n");
+  // Two increments that change remain two.
+  const auto steps = [](const std::string& first, const std::string& second) {
+    const std::string rest = "Y5\nX-18\nY6\nX30\nZ-1\nY-7\n";
+    return kHead + "G91\n" + first + "\n" + rest + second + "\n" + rest + "M02\n";
+  };
+  EXPECT_EQ(shown(changes_between(steps("X20", "X21"), steps("X21", "X21.2"))),
+            "moved 5-11|5-11: moved by X1\nmoved 12-18|12-18: moved by X1.2\n");
 }
 
 /// In a frame that is turned each motion is moved otherwise, and all of them are one change.
