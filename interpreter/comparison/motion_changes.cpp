@@ -45,9 +45,11 @@ class MotionNamer {
       if (step.kind == MotionStep::Kind::Pair) {
         if (!has_way) name_way(at.a_begin, at.b_begin, step.shift);
         changes_.compare_feeds(at.a_begin, at.b_begin);
+        changes_.compare_sides(at.a_begin, at.b_begin);
       } else {
         same_step(motions, {step.motions.a_begin, step.motions.b_begin}, step.shift, [&](std::size_t i, std::size_t k) {
           changes_.compare_feeds(block.a_actions[i], block.b_actions[k]);
+          changes_.compare_sides(block.a_actions[i], block.b_actions[k]);
         });
       }
     }
@@ -112,6 +114,7 @@ class MotionNamer {
       if (step.kind != MotionStep::Kind::Pair) continue;
       const auto [i, k] = group.pair(step);
       if (!a(i).is_inverse_time) changes_.compare_feeds(i, k);
+      changes_.compare_sides(i, k);
     }
     if (pairs == 0 && (only_a == 0 || only_b == 0)) {
       if (closing != nullptr && closing->kind == MotionStep::Kind::Pair) {
