@@ -40,6 +40,9 @@ std::size_t start_of(const RecordedRun& run, std::size_t begin) {
   return run.actions[std::min(begin, run.actions.size() - 1)].line;
 }
 
+/// As programs write it; empty for none.
+std::string side_of(const MachineAction& motion) { return motion.side == 0 ? "" : fmt::format("G{}", motion.side); }
+
 bool is_same_feed(const MachineAction& a, const MachineAction& b) {
   if (a.is_rapid != b.is_rapid) return false;
   const auto near = [](double one, double other) {
@@ -162,14 +165,26 @@ void ChangeList::compare_feeds(std::size_t i, std::size_t k) {
     if (!left.is_rapid) close_feed();
     return;
   }
-  std::string old_value = value_of(runs_.a, left);
-  std::string new_value = value_of(runs_.b, right);
-  if (!feed_ || feed_->old_value != old_value || feed_->new_value != new_value) {
-    close_feed();
-    feed_ = OpenFeed{{i, i + 1, k, k + 1}, std::move(old_value), std::move(new_value)};
+  follow_value(feed_, ChangeKind::Feed, {{i, i + 1, k, k + 1}, value_of(runs_.a, left), value_of(runs_.b, right)});
+}
+
+void ChangeList::compare_sides(std::size_t i, std::size_t k) {
+  const MachineAction& left = a(i);
+  const MachineAction& right = b(k);
+  if (!left.has_side || !right.has_side) return;
+  const auto is_by_control = [](const MachineAction& motion) { return motion.side != 0 && !motion.is_compensated; };
+  if (left.side == right.side || (!is_by_control(left) && !is_by_control(right))) return close_side();
+  follow_value(side_, ChangeKind::Function, {{i, i + 1, k, k + 1}, side_of(left), side_of(right)});
+}
+
+void ChangeList::follow_value(std::optional<OpenValue>& open, ChangeKind kind, OpenValue next) {
+  if (!open || open->old_value != next.old_value || open->new_value != next.new_value) {
+    close(open, kind);
+    open = std::move(next);
+    return;
   }
-  feed_->actions.a_end = i + 1;
-  feed_->actions.b_end = k + 1;
+  open->actions.a_end = next.actions.a_end;
+  open->actions.b_end = next.actions.b_end;
 }
 
 void ChangeList::compare_feeds_along(const AlignedPiece& piece) {
@@ -177,28 +192,35 @@ void ChangeList::compare_feeds_along(const AlignedPiece& piece) {
     overlaps_.clear();
     const auto next =
         same_step(runs_, place, piece.shift, [&](std::size_t i, std::size_t k) { overlaps_.emplace_back(i, k); });
-    for (const auto& [i, k] : overlaps_) compare_feeds(i, k);
+    for (const auto& [i, k] : overlaps_) {
+      compare_feeds(i, k);
+      compare_sides(i, k);
+    }
     place = next.value_or(PlaceInBoth{place.a + 1, place.b + 1});
   }
 }
 
 void ChangeList::compare_feeds_alone(std::size_t i, std::size_t k) {
   close_feed();
+  close_side();
   compare_feeds(i, k);
+  compare_sides(i, k);
   close_feed();
+  close_side();
 }
 
-void ChangeList::close_feed() {
-  if (!feed_) return;
-  OpenFeed open = std::move(*std::exchange(feed_, std::nullopt));
-  BehaviorChange& change = add(ChangeKind::Feed, open.actions);
-  change.old_value = std::move(open.old_value);
-  change.new_value = std::move(open.new_value);
+void ChangeList::close(std::optional<OpenValue>& open, ChangeKind kind) {
+  if (!open) return;
+  OpenValue closed = std::move(*std::exchange(open, std::nullopt));
+  BehaviorChange& change = add(kind, closed.actions);
+  change.old_value = std::move(closed.old_value);
+  change.new_value = std::move(closed.new_value);
 }
 
 std::vector<BehaviorChange> ChangeList::take() {
   close_shift();
   close_feed();
+  close_side();
   name_turned_frames();
   join_moved_rows();
   join_moved_blocks();
@@ -371,6 +393,7 @@ bool ChangeList::is_same_block(const ActionRanges& removed, const ActionRanges& 
     const MachineAction& left = a(removed.a_begin + i);
     const MachineAction& right = b(added.b_begin + i);
     if (!is_same_action(runs_, left, right, Vec3::Zero())) return false;
+    if (left.side != right.side) return false;
     if (left.is_motion() && !options_.ignores_feed && !is_same_feed(left, right)) return false;
   }
   return true;

@@ -40,6 +40,8 @@ class ChangeList {
 
   /// The next motions that take the place of each other, by their indices in both runs.
   void compare_feeds(std::size_t i, std::size_t k);
+  /// G41, G42 or none of these motions. Where the radius of the tool is known, the path itself shows it.
+  void compare_sides(std::size_t i, std::size_t k);
   void compare_feeds_along(const AlignedPiece& piece);
   /// Feeds of motions that do not follow each other in both runs.
   void compare_feeds_alone(std::size_t i, std::size_t k);
@@ -52,7 +54,8 @@ class ChangeList {
     ActionRanges actions;
     geometry::Vec3 shift = geometry::Vec3::Zero();
   };
-  struct OpenFeed {
+  /// Another value that goes on for a while.
+  struct OpenValue {
     ActionRanges actions;
     std::string old_value;
     std::string new_value;
@@ -61,7 +64,10 @@ class ChangeList {
   const MachineAction& a(std::size_t i) const { return runs_.a.actions[i]; }
   const MachineAction& b(std::size_t i) const { return runs_.b.actions[i]; }
   void close_shift();
-  void close_feed();
+  void close_feed() { close(feed_, ChangeKind::Feed); }
+  void close_side() { close(side_, ChangeKind::Function); }
+  void close(std::optional<OpenValue>& open, ChangeKind kind);
+  void follow_value(std::optional<OpenValue>& open, ChangeKind kind, OpenValue next);
   void name_turned_frames();
   bool is_by_frames(const ActionRanges& at) const;
   bool is_by_frames(const MachineAction& left, const MachineAction& right) const;
@@ -77,7 +83,8 @@ class ChangeList {
   std::vector<BehaviorChange> changes_;
   std::vector<ActionRanges> places_;  ///< Of each change.
   std::optional<OpenShift> shift_;
-  std::optional<OpenFeed> feed_;
+  std::optional<OpenValue> feed_;
+  std::optional<OpenValue> side_;
   std::vector<std::pair<std::size_t, std::size_t>> overlaps_;
 };
 

@@ -66,14 +66,14 @@ bool is_before(const RecordedRun& left, const RecordedRun& right) {
     const bool is_arc = action.arc != MachineAction::kNone;
     const ActionArc arc = is_arc ? run.arcs[action.arc] : ActionArc{};
     return std::tuple(action.kind, action.is_rapid, action.to.tip.x(), action.to.tip.y(), action.to.tip.z(),
-                      action.to.b, action.to.c, action.feed, action.value, value_of(run, action), is_arc, arc.sweep_deg,
-                      arc.center.x(), arc.center.y(), arc.center.z());
+                      action.to.b, action.to.c, action.feed, action.value, action.side, value_of(run, action), is_arc,
+                      arc.sweep_deg, arc.center.x(), arc.center.y(), arc.center.z());
   };
   for (std::size_t i = 0; i < left.actions.size(); ++i) {
     const MachineAction& one = left.actions[i];
     const MachineAction& other = right.actions[i];
     if (one.is_line() && other.is_line() && one.to == other.to && one.feed == other.feed && one.value == other.value &&
-        one.is_rapid == other.is_rapid)
+        one.side == other.side && one.is_rapid == other.is_rapid)
       continue;
     const auto left_key = key(left, one);
     const auto right_key = key(right, other);

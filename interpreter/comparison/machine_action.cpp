@@ -78,9 +78,21 @@ class ActionRecorder {
     action.feed = action.is_rapid ? 0 : running::feed_of(event);
     action.from = move.from;
     action.to = move.to;
+    if (turn == 0 && (event.compensation.side == 0 || event.compensation.plane_is_sound))
+      add_side(event, move.is_arc, action);
     if (!move.is_arc) return;
     action.arc = static_cast<std::uint32_t>(run_.arcs.size());
     run_.arcs.push_back({move.center, move.normal, move.sweep_deg});
+  }
+  void add_side(const running::MoveEvent& event, bool is_arc, MachineAction& action) const {
+    const geometry::Vec3 way = action.to.tip - action.from.tip;
+    const double beside_normal = (way - event.normal.dot(way) * event.normal).norm();
+    action.has_side = is_arc || beside_normal > kNoMotion;
+    if (!action.has_side || event.compensation.side == 0) return;
+    action.side = event.compensation.side > 0 ? 41 : 42;
+    if (tool_ == MachineAction::kNone) return;
+    const auto radius = machine_.tool_radii.find(run_.tools[tool_].code);
+    action.is_compensated = radius != machine_.tool_radii.end() && radius->second > 0;
   }
   void add_travel(double& length) {
     const kinematics::TipTravel& travel = made_->tip_travel();

@@ -28,10 +28,15 @@ struct MachineAction {
   bool is_rapid = false;
   bool is_inverse_time = false;  ///< The feed is written under G93.
   bool is_by_joints = false;     ///< A rapid that turns B or C: the joints go straight, not the tip (I.3.4.1).
-  std::uint32_t line = 0;        ///< From 0.
-  std::uint32_t tool = kNone;    ///< Index of the mounted tool in RecordedRun::tools; for Tool, of the new one.
-  std::uint32_t arc = kNone;     ///< Index in RecordedRun::arcs.
-  std::uint32_t frame = 0;       ///< Index in RecordedRun::frames of the frame in force.
+  /// Motion: the side of compensation, 41, 42 or 0 for none. Only where the control leads the tool beside the path:
+  /// `has_side` is false for motions along the normal of the arc plane, and for those that turn B or C.
+  std::uint8_t side = 0;
+  bool has_side = false;
+  bool is_compensated = false;  ///< The radius of the tool is known: `from` and `to` are beside the programmed path.
+  std::uint32_t line = 0;       ///< From 0.
+  std::uint32_t tool = kNone;   ///< Index of the mounted tool in RecordedRun::tools; for Tool, of the new one.
+  std::uint32_t arc = kNone;    ///< Index in RecordedRun::arcs.
+  std::uint32_t frame = 0;      ///< Index in RecordedRun::frames of the frame in force.
   /// Function: index in RecordedRun::functions. Spindle: 3, 4 or 5. Signal: its G. End: Ending, and the error's id.
   std::uint32_t number = 0;
   double value = 0;     ///< Motion: F as programmed. Dwell: seconds. Spindle: revolutions per minute.

@@ -44,10 +44,10 @@ class MotionNamer {
       changes_.follow_shift(at, step.shift);
       if (step.kind == MotionStep::Kind::Pair) {
         if (!has_way) name_way(at.a_begin, at.b_begin, step.shift);
-        compare_feeds(block, step.motions.a_begin, step.motions.b_begin);
+        compare_values(block, step.motions.a_begin, step.motions.b_begin);
       } else {
         same_step(motions, {step.motions.a_begin, step.motions.b_begin}, step.shift,
-                  [&](std::size_t i, std::size_t k) { compare_feeds(block, i, k); });
+                  [&](std::size_t i, std::size_t k) { compare_values(block, i, k); });
       }
     }
     name_group(group, nullptr);
@@ -61,6 +61,12 @@ class MotionNamer {
   void compare_feeds(const MotionBlock& block, std::size_t i, std::size_t k) {
     changes_.compare_feeds(block.a_firsts[i], block.b_firsts[k]);
     changes_.compare_feeds(block.a_actions[i], block.b_actions[k]);
+  }
+
+  /// The same, and the side of their compensation.
+  void compare_values(const MotionBlock& block, std::size_t i, std::size_t k) {
+    compare_feeds(block, i, k);
+    changes_.compare_sides(block.a_actions[i], block.b_actions[k]);
   }
 
   /// The actions from the first to the last one of some motions.
@@ -119,6 +125,7 @@ class MotionNamer {
       if (step.kind != MotionStep::Kind::Pair) continue;
       const auto [i, k] = group.pair(step);
       if (!a(i).is_inverse_time) compare_feeds(group.block, step.motions.a_begin, step.motions.b_begin);
+      changes_.compare_sides(i, k);
     }
     if (pairs == 0 && (only_a == 0 || only_b == 0)) {
       if (closing != nullptr && closing->kind == MotionStep::Kind::Pair) {

@@ -53,6 +53,7 @@ class PartNamer {
     changes_.follow_shift({at.a_end - 1, at.a_end, at.b_end - 1, at.b_end}, part.after);
     comparison::name_way(changes_, at.a_end - 1, at.b_end - 1, part.after);
     changes_.compare_feeds(at.a_end - 1, at.b_end - 1);
+    changes_.compare_sides(at.a_end - 1, at.b_end - 1);
   }
 
   /// Too large to look into.

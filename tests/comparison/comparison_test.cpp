@@ -369,6 +369,36 @@ TEST(Comparison, ToleranceDecides) {
             "moved 5-6|5-6: moved by X0.05\n");
 }
 
+/// Around a corner with a tool, under the G words of its contour.
+std::string contour(std::string_view tool, std::string_view side) {
+  return fmt::format("M06 {}\nS12000 M03\nG00 X0 Y0 Z5\n{}\nG01 X10 Y10 F1000\nY50\nX50\nG40\nG00 X0 Y0\nM02\n", tool,
+                     side);
+}
+
+/// The control knows radii that the machine of a test does not: T102001 has none here.
+TEST(Comparison, NamesTheSideOfCompensationWhereTheRadiusIsUnknown) {
+  const auto changes = [](std::string_view old_side, std::string_view new_side) {
+    return shown(changes_between(contour("T102001", old_side), contour("T102001", new_side)));
+  };
+  EXPECT_EQ(changes("G41", "G42"), "function 5-7|5-7: G42 instead of G41\n");
+  EXPECT_EQ(changes("", "G42"), "function 5-7|5-7: added: G42\n");
+  EXPECT_EQ(changes("G41", ""), "function 5-7|5-7: removed: G41\n");
+  EXPECT_EQ(changes("G41", "G41 ;the same"), "");
+  EXPECT_EQ(changes("G41\nG01 Z-5 F500", "G01 Z-5 F500\nG41"), "") << "the plunge has no side";
+  const std::string old_program = contour("T102001", "G41");
+  std::string split = contour("T102001", "G41");
+  split.replace(split.find("Y50\n"), 4, "Y30\nY50\n");
+  EXPECT_EQ(shown(changes_between(old_program, split)), "");
+  split.replace(split.find("G41"), 3, "G42");
+  EXPECT_EQ(shown(changes_between(old_program, split)), "function 5-7|5-8: G42 instead of G41\n");
+}
+
+TEST(Comparison, ShowsTheSideOfCompensationByThePathWhereTheRadiusIsKnown) {
+  const std::string text = shown(changes_between(contour("T101001", "G41"), contour("T101001", "G42")));
+  EXPECT_NE(text, "");
+  EXPECT_EQ(text.find("function"), std::string::npos) << text;
+}
+
 TEST(Comparison, SpeaksItalian) {
   const std::vector<BehaviorChange> changes = changes_between(kSquare, square("X100\n", "X101\n"));
   ASSERT_EQ(changes.size(), 1U);
