@@ -258,9 +258,17 @@ std::optional<std::array<ProgramMachine, 2>> find_machines(DiffCommandOptions& o
       machines[i].scene = scenes.of(*machines[i].configuration, operands[i].place);
   }
   if (has_mistakes({scenes.mistakes(options.reader_language())})) return std::nullopt;
-  if (options.verify)
-    for (std::size_t side = 0; side < 2; ++side)
-      if (!machines[side].scene) complain(dialect::format(kNoScene, options.reader_language(), operands[side].name));
+  if (options.verify) {
+    bool have_setups = true;
+    for (std::size_t i = 0; i < machines.size(); ++i) {
+      if (machines[i].scene && machines[i].scene->has_setup) continue;
+      have_setups = false;
+      complain(dialect::format(kNoScene, options.reader_language(), operands[i].name));
+    }
+    // The contacts of one of them alone would all be new or gone.
+    if (!have_setups)
+      for (ProgramMachine& machine : machines) machine.scene = nullptr;
+  }
   return std::array{std::move(machines[0]), std::move(machines[1])};
 }
 
@@ -306,9 +314,10 @@ struct DiffResult {
 DiffResult compare_once(const revisions::RevisionPair& pair, const revisions::CompareOptions& compare_options,
                         const DiffCommandOptions& options) {
   const revisions::RevisionComparison compared = revisions::compare(pair, compare_options);
-  return {
-      options.format == "json" ? json_of(compared, options.reader_language()) : text_of(compared, options.text_style()),
-      compared.is_same() ? ExitStatus::Success : ExitStatus::Findings};
+  const std::string text = options.format == "json" ? json_of(compared, options.reader_language())
+                                                    : other_paths_text(compared, options.reader_language()) +
+                                                          text_of(compared, options.text_style());
+  return {text, compared.is_same() ? ExitStatus::Success : ExitStatus::Findings};
 }
 
 /// What has not been compared may differ: then the result is not known.

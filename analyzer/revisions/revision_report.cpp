@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analyzer/selection/vgpl_values.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/running/event.h"
 #include "interpreter/simulation/summary.h"
@@ -23,8 +24,8 @@ using OrderedJson = nlohmann::ordered_json;
 namespace {
 
 constexpr Text kToolTime{"{}: {}, was {} ({:+.1f} s)\n", "{}: {}, era {} ({:+.1f} s)\n"};
-constexpr Text kToolVolume{"{}: removes {} mm3, was {} mm3\n", "{}: asporta {} mm3, erano {} mm3\n"};
-constexpr Text kVolume{"removed volume: {} mm3, was {} mm3\n", "volume asportato: {} mm3, era {} mm3\n"};
+constexpr Text kToolVolume{"{}: removes {} cm3, was {} cm3\n", "{}: asporta {} cm3, erano {} cm3\n"};
+constexpr Text kVolume{"removed volume: {} cm3, was {} cm3\n", "volume asportato: {} cm3, era {} cm3\n"};
 constexpr Text kFindings{"findings", "segnalazioni"};
 constexpr Text kNew{"new: line {}", "nuova: riga {}"};
 constexpr Text kGone{"gone: old line {}", "non più: prima riga {}"};
@@ -80,7 +81,8 @@ std::string tools_text(const RevisionComparison& compared, Language language) {
     const double before = removed_volume(compared.old_run);
     const double now = removed_volume(compared.new_run);
     if (shows_volume(now - before))
-      text += dialect::format(kVolume, language, fmt::format("{:.0f}", now), fmt::format("{:.0f}", before));
+      text +=
+          dialect::format(kVolume, language, fmt::format("{:.2f}", now / 1000), fmt::format("{:.2f}", before / 1000));
   }
   const std::vector<ToolTotals> totals = tool_totals(compared);
   if (totals.size() < 2) return text;
@@ -90,8 +92,8 @@ std::string tools_text(const RevisionComparison& compared, Language language) {
       text += dialect::format(kToolTime, language, name, simulation::shown_time(each.new_seconds),
                               simulation::shown_time(each.old_seconds), each.new_seconds - each.old_seconds);
     if (shows_volume(each.new_volume - each.old_volume))
-      text += dialect::format(kToolVolume, language, name, fmt::format("{:.0f}", each.new_volume),
-                              fmt::format("{:.0f}", each.old_volume));
+      text += dialect::format(kToolVolume, language, name, fmt::format("{:.2f}", each.new_volume / 1000),
+                              fmt::format("{:.2f}", each.old_volume / 1000));
   }
   return text;
 }
@@ -189,6 +191,25 @@ std::string text_of(const RevisionComparison& compared, const TextStyle& style) 
   if (compared.is_same()) return count_text(runs, style) + stop + findings;
   return changes_text(runs, style) + totals_text(runs, style.language) + tools_text(compared, style.language) +
          findings + stop + count_text(runs, style);
+}
+
+std::string other_paths_text(const RevisionComparison& compared, Language language) {
+  static constexpr Text kOld{"not compared: other values of {} at the jump of old line {} (--all-paths)\n",
+                             "non confrontato: altri valori di {} al salto della prima riga {} (--all-paths)\n"};
+  static constexpr Text kNew{"not compared: other values of {} at the jump of line {} (--all-paths)\n",
+                             "non confrontato: altri valori di {} al salto della riga {} (--all-paths)\n"};
+  const auto lines = [&](const RevisionRun& run, const Text& text) {
+    selection::VgplValues values(run.text);
+    values.take(run.path);
+    std::string result;
+    for (const verification::Unverified& gap : values.gaps()) {
+      const std::string_view name = gap.gap == verification::Gap::OtherPaths ? "VGPL" : gap.name.in(language);
+      result += dialect::format(text, language, name, gap.line + 1);
+    }
+    return result;
+  };
+  const std::string of_new = lines(compared.new_run, kNew);
+  return of_new.empty() ? lines(compared.old_run, kOld) : of_new;
 }
 
 OrderedJson to_json(const RevisionComparison& compared, Language language) {
