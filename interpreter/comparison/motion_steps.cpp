@@ -60,10 +60,10 @@ class LineJoiner {
     bool is_paired = false;  ///< It takes the place of one of the other run.
     bool is_line = false;    ///< So does its motion, and both are lines.
   };
-  using Ends = std::vector<MotionEnd>;
-  enum class Step : std::uint8_t { Pair, OnlyInA, OnlyInB };
+  using MotionEnds = std::vector<MotionEnd>;
+  enum class JoinStep : std::uint8_t { Pair, OnlyInA, OnlyInB };
 
-  static bool has_joint(const Ends& ends) {
+  static bool has_joint(const MotionEnds& ends) {
     return std::any_of(ends.begin(), ends.end(), [](const MotionEnd& end) { return end.is_joint; });
   }
 
@@ -79,7 +79,7 @@ class LineJoiner {
            std::abs(place.c - from.c - part * (to.c - from.c)) <= allowed;
   }
 
-  void find_joints(const RecordedRun& run, const std::vector<std::size_t>& actions, Ends& ends) const {
+  void find_joints(const RecordedRun& run, const std::vector<std::size_t>& actions, MotionEnds& ends) const {
     constexpr double kSameFeed = 1e-6;
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       const MachineAction& one = run.actions[i];
@@ -103,27 +103,29 @@ class LineJoiner {
   void choose() {
     const auto only = [](const MotionEnd& end) { return end.is_joint ? 0.25F : 1.F; };
     const std::size_t width = b_.size() + 1;
-    std::vector<Step> steps((a_.size() + 1) * width, Step::OnlyInB);
+    std::vector<JoinStep> steps((a_.size() + 1) * width, JoinStep::OnlyInB);
     std::vector<float> costs(width);
     for (std::size_t k = 1; k < width; ++k) costs[k] = costs[k - 1] + only(b_[k - 1]);
     for (std::size_t i = 1; i <= a_.size(); ++i) {
       float diagonal = costs[0];
       costs[0] += only(a_[i - 1]);
-      steps[i * width] = Step::OnlyInA;
+      steps[i * width] = JoinStep::OnlyInA;
       for (std::size_t k = 1; k < width; ++k) {
         const float pair = diagonal + pair_cost(block_.a.actions[i - 1], block_.b.actions[k - 1]);
         const float only_a = costs[k] + only(a_[i - 1]);
         const float only_b = costs[k - 1] + only(b_[k - 1]);
         diagonal = costs[k];
         costs[k] = std::min({pair, only_a, only_b});
-        steps[i * width + k] = costs[k] == pair ? Step::Pair : costs[k] == only_a ? Step::OnlyInA : Step::OnlyInB;
+        steps[i * width + k] = costs[k] == pair     ? JoinStep::Pair
+                               : costs[k] == only_a ? JoinStep::OnlyInA
+                                                    : JoinStep::OnlyInB;
       }
     }
     for (std::size_t i = a_.size(), k = b_.size(); i > 0 || k > 0;) {
-      const Step step = steps[i * width + k];
-      if (step != Step::OnlyInB) --i;
-      if (step != Step::OnlyInA) --k;
-      if (step != Step::Pair) continue;
+      const JoinStep step = steps[i * width + k];
+      if (step != JoinStep::OnlyInB) --i;
+      if (step != JoinStep::OnlyInA) --k;
+      if (step != JoinStep::Pair) continue;
       const bool are_lines = block_.a.actions[i].is_line() && block_.b.actions[k].is_line();
       a_[i] = {false, true, are_lines};
       b_[k] = {false, true, are_lines};
@@ -131,7 +133,7 @@ class LineJoiner {
   }
 
   /// Keeps the parts of what is no line as a whole, and of lines that the other run does not have.
-  void keep_others(const RecordedRun& run, Ends& ends) const {
+  void keep_others(const RecordedRun& run, MotionEnds& ends) const {
     for (std::size_t begin = 0, end = 0; end < ends.size(); begin = ++end) {
       while (ends[end].is_joint) ++end;  // The last one is none.
       bool is_line = ends[end].is_line && (begin == 0 || ends[begin - 1].is_paired);
@@ -142,7 +144,7 @@ class LineJoiner {
   }
 
   static void join(RecordedRun& run, std::vector<std::size_t>& actions, std::vector<std::size_t>& firsts,
-                   const Ends& ends) {
+                   const MotionEnds& ends) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < ends.size(); ++i) {
       if (ends[i].is_joint) {
@@ -162,8 +164,8 @@ class LineJoiner {
   const RunPair& runs_;
   const DifferentPart& part_;
   MotionBlock& block_;
-  Ends a_;
-  Ends b_;
+  MotionEnds a_;
+  MotionEnds b_;
 };
 
 /// Goes through the pieces of a block.

@@ -261,6 +261,7 @@ test('the slider blends old and new', async () => {
 
 test('speaks Italian, in the dark, and in a narrow window', async () => {
   await page.locator('#language').click();
+  await drawn(page);
   assert.equal(await page.locator('#changes-title').textContent(), '4 differenze');
   assert.equal(await changes().nth(0).locator('.message').textContent(), 'spostato di Y10');
   assert.match(await page.locator('#program-heads').textContent(), /^Vecchiotray\.iso/);
