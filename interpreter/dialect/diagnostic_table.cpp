@@ -2346,7 +2346,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                      "material is left on the finished part: up to {height} {unit} beyond its tolerance of {tolerance} "
                      "{unit}, at X{x} Y{y} Z{z}; {volume} cm3 beyond it in one piece",
                  .it = "sul pezzo finito resta materiale: fino a {height} {unit} oltre la tolleranza di {tolerance} "
-                       "{unit}, in X{x} Y{y} Z{z}; {volume} cm3 oltre la tolleranza in un solo punto"},
+                       "{unit}, in X{x} Y{y} Z{z}; {volume} cm3 oltre la tolleranza in un solo pezzo"},
      .explanation =
          {.en = "At the end of the program more material stands on the finished part of the setup (target) than its "
                 "tolerance allows. The finding stands at the line that has cut last near it, or at the end of the "
