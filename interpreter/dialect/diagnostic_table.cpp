@@ -1386,9 +1386,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .title = {.en = "Rapid through material", .it = "Rapido nel materiale"},
      .message =
          {.en = "{who} goes through material in rapid: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the "
-                "start; Z{enough} would have been enough",
+                "start; Z{enough} (absolute) would have been enough",
           .it = "{who} attraversa il materiale in rapido: {depth} {unit} di profondità in X{x} Y{y} Z{z}, {time} s "
-                "dopo l'avvio; bastava Z{enough}"},
+                "dopo l'avvio; bastava Z{enough} (quota assoluta)"},
      .causes =
          {{.cause = "at-any-height",
            .message = {.en = "{who} goes through material in rapid: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s "
@@ -1420,9 +1420,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {"depth", "x", "y", "z", "time", "enough"},
      .title = {.en = "Holder or shank in material", .it = "Portautensile o gambo nel materiale"},
      .message = {.en = "{who} is in the material: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the start; "
-                       "Z{enough} would have been enough",
+                       "Z{enough} (absolute) would have been enough",
                  .it = "{who} è nel materiale: {depth} {unit} di profondità in X{x} Y{y} Z{z}, {time} s dopo l'avvio; "
-                       "bastava Z{enough}"},
+                       "bastava Z{enough} (quota assoluta)"},
      .causes =
          {{.cause = "at-any-height",
            .message = {.en = "{who} is in the material: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the "
