@@ -1386,9 +1386,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .title = {.en = "Rapid through material", .it = "Rapido nel materiale"},
      .message =
          {.en = "{who} goes through material in rapid: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the "
-                "start; Z{enough} would have been enough",
+                "start; Z{enough} (absolute) would have been enough",
           .it = "{who} attraversa il materiale in rapido: {depth} {unit} di profondità in X{x} Y{y} Z{z}, {time} s "
-                "dopo l'avvio; bastava Z{enough}"},
+                "dopo l'avvio; bastava Z{enough} (quota assoluta)"},
      .causes =
          {{.cause = "at-any-height",
            .message = {.en = "{who} goes through material in rapid: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s "
@@ -1420,9 +1420,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {"depth", "x", "y", "z", "time", "enough"},
      .title = {.en = "Holder or shank in material", .it = "Portautensile o gambo nel materiale"},
      .message = {.en = "{who} is in the material: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the start; "
-                       "Z{enough} would have been enough",
+                       "Z{enough} (absolute) would have been enough",
                  .it = "{who} è nel materiale: {depth} {unit} di profondità in X{x} Y{y} Z{z}, {time} s dopo l'avvio; "
-                       "bastava Z{enough}"},
+                       "bastava Z{enough} (quota assoluta)"},
      .causes =
          {{.cause = "at-any-height",
            .message = {.en = "{who} is in the material: {depth} {unit} deep at X{x} Y{y} Z{z}, {time} s after the "
@@ -2346,7 +2346,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                      "material is left on the finished part: up to {height} {unit} beyond its tolerance of {tolerance} "
                      "{unit}, at X{x} Y{y} Z{z}; {volume} cm3 beyond it in one piece",
                  .it = "sul pezzo finito resta materiale: fino a {height} {unit} oltre la tolleranza di {tolerance} "
-                       "{unit}, in X{x} Y{y} Z{z}; {volume} cm3 oltre la tolleranza in un solo punto"},
+                       "{unit}, in X{x} Y{y} Z{z}; {volume} cm3 oltre la tolleranza in un solo pezzo"},
      .explanation =
          {.en = "At the end of the program more material stands on the finished part of the setup (target) than its "
                 "tolerance allows. The finding stands at the line that has cut last near it, or at the end of the "

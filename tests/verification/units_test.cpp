@@ -45,9 +45,9 @@ TEST(Units, OfARapidInMaterialAreThoseOfTheProgram) {
   const VerifiedRun run = Bench().cut(rapids_at("0.1969"));
   EXPECT_THAT(said(run),
               HasSubstr("E150 6: the cutter of T101001 goes through material in rapid: 1.3779 in deep at X"));
-  EXPECT_THAT(said(run), HasSubstr("; Z1.5749 would have been enough\n"));
+  EXPECT_THAT(said(run), HasSubstr("; Z1.5749 (absolute) would have been enough\n"));
   EXPECT_THAT(said(run, Language::Italian), HasSubstr("in rapido: 1.3779 pollici di profondità in X"));
-  EXPECT_THAT(said(run, Language::Italian), HasSubstr("; bastava Z1.5749\n"));
+  EXPECT_THAT(said(run, Language::Italian), HasSubstr("; bastava Z1.5749 (quota assoluta)\n"));
   // The view and the debugger say the same, and JSON is in mm.
   ASSERT_EQ(run.contacts.size(), 1u);
   EXPECT_THAT(said(run), HasSubstr(in_words(run.contacts[0], Language::English)));
@@ -60,7 +60,7 @@ TEST(Units, OfARapidInMaterialAreThoseOfTheProgram) {
 TEST(Units, AreMillimetersWithoutG70AndFromG71On) {
   const std::string words = said(Bench().cut("G70\nG00 X9.8425 Y5.9055 Z3\nG71\nZ5\nX500\nZ50\n"));
   EXPECT_THAT(words, HasSubstr("E150 7: the cutter of T101001 goes through material in rapid: 35 mm deep"));
-  EXPECT_THAT(words, HasSubstr("; Z40 would have been enough\n"));
+  EXPECT_THAT(words, HasSubstr("; Z40 (absolute) would have been enough\n"));
 }
 
 TEST(Units, OfABlockThatPutsThemInForce) {
@@ -72,7 +72,7 @@ TEST(Units, OfAHolderADeepCutAndAPieceThatComesFree) {
   Bench bench;
   const std::string holder = said(bench.cut("G70\nG00 X13.7795 Y5.9055 Z3\nG01 Z-0.9843 F40\nG00 Z3\n"));
   EXPECT_THAT(holder, HasSubstr("E151 5: the holder of T101001 is in the material: 0.19"));
-  EXPECT_THAT(holder, HasSubstr("; Z-0.7874 would have been enough\n"));
+  EXPECT_THAT(holder, HasSubstr("; Z-0.7874 (absolute) would have been enough\n"));
   Bench shallow;
   shallow.scene.tools[Shop::kTool].max_depth = 10;
   const std::string deep = said(shallow.cut("G70\nG00 X9 Y5.9055 Z3\nZ0.7874\nG01 X19 F40\nG00 Z3\n"));
