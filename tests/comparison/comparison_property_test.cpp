@@ -486,6 +486,7 @@ TEST_F(LargeDifferences, TooLargeToLookInto) {
 /// Blocks that are quite different, between others that are the same: each alone is small enough to be looked into, and
 /// all together are not. The time is that of the budget, whatever their number.
 TEST(WorkBudget, BoundsTheWorkOfAllDifferences) {
+  if (!support::kTriesAll) GTEST_SKIP() << "minutes under the sanitizers";
   support::Random random(9);
   std::string old_program = "M06 T101001\nS12000 M03\n";
   std::string new_program = old_program;
