@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -42,7 +41,7 @@ LintRun::LintRun(const LintCommandOptions& options, const formats::ReportStyle& 
       files_(std::move(programs.files)),
       settings_(std::move(programs.settings)),
       renderer_(std::move(renderer)),
-      jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+      jobs_(options.jobs > 0 ? options.jobs : check::processor_count()),
       scenes_(style.language),
       progress_(command_line::terminal_writer(), input::bytes_of(files_)),
       output_(options) {}

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -282,9 +281,7 @@ std::optional<revisions::CompareOptions> read_compare_options(const DiffCommandO
   const auto comparison_options = read_comparison_options(options);
   if (!comparison_options) return std::nullopt;
   read.comparison = *comparison_options;
-  read.together = [](const std::function<void()>& work) {
-    check::side_by_side(std::max(1, static_cast<int>(std::thread::hardware_concurrency())), work);
-  };
+  read.together = check::on_all_processors;
   return read;
 }
 

@@ -1,8 +1,6 @@
 #include "interpreter/run_report.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,11 +15,6 @@
 #include "interpreter/verification/verification_report.h"
 
 namespace isocnc::interpreter {
-
-/// Runs work on all processors.
-static void work_together(const std::function<void()>& work) {
-  check::side_by_side(std::max(1, static_cast<int>(std::thread::hardware_concurrency())), work);
-}
 
 RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& machine)
     : outputs_(outputs),
@@ -44,7 +37,8 @@ RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& 
   open(outputs.plot, plot_file_);
   open(outputs.stock_out, stock_file_);
   const plot::PlotSubject& subject = outputs.subject;
-  if (subject.scene) verifier_.emplace(*subject.scene, machine, subject.origin, work_together, outputs.material);
+  if (subject.scene)
+    verifier_.emplace(*subject.scene, machine, subject.origin, check::on_all_processors, outputs.material);
   const auto format = plot::plot_format(outputs.plot);
   if (format) plot_.emplace(*format, outputs.subject, machine);
   if (format == plot::PlotFormat::Html && verifier_ && verifier_->material())

@@ -1,5 +1,6 @@
 #include "analyzer/check/side_by_side.h"
 
+#include <algorithm>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -20,5 +21,9 @@ void side_by_side(int workers, const std::function<void()>& work) {
   work_or_end();
   for (std::thread& helper : helpers) helper.join();
 }
+
+int processor_count() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+void on_all_processors(const std::function<void()>& work) { side_by_side(processor_count(), work); }
 
 }  // namespace isocnc::check

@@ -9,4 +9,9 @@ namespace isocnc::check {
 /// for the work that failed.
 void side_by_side(int workers, const std::function<void()>& work);
 
+/// The number of processors, at least 1.
+int processor_count();
+/// The same on all processors.
+void on_all_processors(const std::function<void()>& work);
+
 }  // namespace isocnc::check
