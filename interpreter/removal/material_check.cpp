@@ -258,12 +258,18 @@ void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece,
   if (!body) return;
   SweepPath path = placed(piece.path, role);
   if (!may_meet(*body, path)) return;
+  // With its clearance or its wall, the body that has just been appended.
+  const bool is_grown = role == Role::ShankWall || role == Role::HolderNear || role == Role::NoseNear;
+  const bool contains_last = is_grown && !uses_.empty() && uses_.back().stretch + 1 == waiting_.size() &&
+                             uses_.back().from == piece.from &&
+                             static_cast<int>(uses_.back().role) + 1 == static_cast<int>(role);
   sweeps_.push_back({.body = body,
                      .path = std::move(path),
                      .tag = static_cast<stock::CutTag>(waiting_.back().line),
-                     .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Ask,
+                     .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Find,
                      .side_rim = std::max(skin_, body->maximum_radius() * kRimShare),
-                     .end_rim = role == Role::Cut ? end_rim(piece) : 0});
+                     .end_rim = role == Role::Cut ? end_rim(piece) : 0,
+                     .contains_last = contains_last});
   uses_.push_back({static_cast<std::uint32_t>(waiting_.size() - 1), role, piece.from, piece.to});
 }
 
@@ -588,10 +594,16 @@ void MaterialCheck::look_closely(Stock before) {
 }
 
 /// What a body meets on a path, in a stock as it is.
-static SweepOutcome ask(const Stock& stock, const RevolvedBody& body, const SweepPath& path) {
+static SweepOutcome ask(const Stock& stock, const RevolvedBody& body, const SweepPath& path,
+                        SweepPurpose purpose = SweepPurpose::Ask) {
   Stock copy = stock;  // Asking changes nothing; the copy is a pointer.
-  const Sweep sweep{.body = &body, .path = path, .purpose = SweepPurpose::Ask};
+  const Sweep sweep{.body = &body, .path = path, .purpose = purpose};
   return copy.apply({&sweep, 1}).front();
+}
+
+/// Whether it meets anything.
+static bool meets(const Stock& stock, const RevolvedBody& body, const SweepPath& path) {
+  return ask(stock, body, path, SweepPurpose::Find).meets();
 }
 
 void MaterialCheck::find_first_touch(OpenIncident& episode, const Stock& before) {
@@ -604,7 +616,7 @@ void MaterialCheck::find_first_touch(OpenIncident& episode, const Stock& before)
     append_tip_paths(machine_.motion.kinematics, stretch.path, use.from, s, forms_->reach(), stock_.spacing() / 40,
                      pieces);
     return std::any_of(pieces.begin(), pieces.end(), [&](const TipPath& piece) {
-      return ask(before, body, placed(moved(piece.path, -workpiece_.origin), use.role)).meets();
+      return meets(before, body, placed(moved(piece.path, -workpiece_.origin), use.role));
     });
   };
   double free = use.from;
@@ -628,13 +640,13 @@ bool MaterialCheck::has_body_been_there(const Stock& before, const SweepUse& use
     const Sweep sweep{.body = body, .path = placed(stock::StraightPath{start, start.origin}, role)};
     is_in = without.apply({&sweep, 1}).front().meets() || is_in;
   }
-  return is_in && !ask(without, *forms_->passing_cutter(), placed(path, use.role)).meets();
+  return is_in && !meets(without, *forms_->passing_cutter(), placed(path, use.role));
 }
 
 /// The height by which a path must be raised so that a body meets nothing; none if that does not help.
 static std::optional<double> enough_rise(const Stock& stock, const RevolvedBody& body, const SweepPath& path,
                                          const Vec3& up) {
-  const auto is_free = [&](double rise) { return !ask(stock, body, moved(path, rise * up)).meets(); };
+  const auto is_free = [&](double rise) { return !meets(stock, body, moved(path, rise * up)); };
   double free = stock.bounds().sizes().norm() + 1;
   if (!is_free(free)) return std::nullopt;
   for (double met = 0; free - met > 0.005;) {
@@ -657,6 +669,12 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
     const Stock& found = episode.before ? *episode.before : before;
     if (const auto tag = found.cut_by(point.x(), point.y())) incident.shaped_by = *tag;
   };
+  if (use.role != Role::Cut) {
+    // The batch has found roughly how deep.
+    const SweepOutcome exact = ask(before, *sweeps_[index].body, path);
+    incident.amount = exact.depth;
+    incident.point = in_machine(exact.point);
+  }
   set_shaper();
   switch (incident.kind) {
     case IncidentKind::RapidInMaterial:
@@ -687,7 +705,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
       double near = workpiece_.clearance;
       for (int i = 0; i < 10; ++i) {
         const double middle = (clear + near) / 2;
-        (ask(before, grown(*whole_body(incident.part), middle), path).meets() ? near : clear) = middle;
+        (meets(before, grown(*whole_body(incident.part), middle), path) ? near : clear) = middle;
       }
       incident.amount = near;
       break;

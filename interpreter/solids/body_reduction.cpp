@@ -91,14 +91,15 @@ class Reduction {
 
   /// Tangents to the lower half of the circle about a corner, each between those beside it.
   void add_circle(const Vec2& center) {
-    constexpr int kTangents = 16;
-    constexpr double kStep = std::numbers::pi / kTangents;
-    const double reach = depth_ / std::cos(kStep / 2);
+    const double error = std::max(kCornerShare * depth_, kCornerError);
+    const double tangents = std::ceil(std::numbers::pi / 2 / std::acos(depth_ / (depth_ + error)));
+    const double step = std::numbers::pi / tangents;
+    const double reach = depth_ / std::cos(step / 2);
     Vec2 last(center.x() - depth_, center.y());
-    for (int i = 0; i <= kTangents; ++i) {
-      const double angle = std::numbers::pi + (i + 0.5) * kStep;
-      const Vec2 next = i < kTangents ? Vec2(center + reach * Vec2(std::cos(angle), std::sin(angle)))
-                                      : Vec2(center.x() + depth_, center.y());
+    for (int i = 0; i <= static_cast<int>(tangents); ++i) {
+      const double angle = std::numbers::pi + (i + 0.5) * step;
+      const Vec2 next = i < static_cast<int>(tangents) ? Vec2(center + reach * Vec2(std::cos(angle), std::sin(angle)))
+                                                       : Vec2(center.x() + depth_, center.y());
       if (next.x() > last.x()) lines_.push_back({last, next});
       last = next;
     }
@@ -134,20 +135,27 @@ class Reduction {
     return best;
   }
 
-  /// Between two neighboring breaks one line is the lowest.
+  /// Between two neighboring breaks one line is the lowest. Where it is above the axis, and the lowest on, it makes one
+  /// piece.
   void add_pieces() {
     const std::vector<double> z = breaks();
+    const OutlineLine* last = nullptr;
     for (std::size_t i = 1; i < z.size(); ++i) {
       const OutlineLine* const line = lowest((z[i - 1] + z[i]) / 2);
-      if (!line) continue;
-      const double low = line->at(z[i - 1]);
-      const double high = line->at(z[i]);
-      if (low + high > kNoRadius)
-        pieces_.push_back({.core = {z[i - 1], std::max(low, 0.0), z[i], std::max(high, 0.0)}});
+      const bool is_there = line && line->at(z[i - 1]) + line->at(z[i]) > kNoRadius;
+      if (is_there && line == last) {
+        pieces_.back().core.top = z[i];
+        pieces_.back().core.top_radius = std::max(line->at(z[i]), 0.0);
+      } else if (is_there) {
+        pieces_.push_back({.core = {z[i - 1], std::max(line->at(z[i - 1]), 0.0), z[i], std::max(line->at(z[i]), 0.0)}});
+      }
+      last = is_there ? line : nullptr;
     }
   }
 
-  static constexpr double kNoRadius = 1e-9;  ///< mm
+  static constexpr double kNoRadius = 1e-9;      ///< mm
+  static constexpr double kCornerShare = 0.005;  ///< By which the circles about corners are too large, of the depth.
+  static constexpr double kCornerError = 0.002;  ///< The same in mm: the larger one counts.
 
   double depth_;
   double bottom_;

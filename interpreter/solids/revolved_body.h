@@ -43,7 +43,7 @@ class RevolvedBody {
   ///
   /// The upper end stays, because shank and holder continue there. The result is never larger than the exact one. It is
   /// smaller only where the profile steps inwards or rounds by less than `depth`: by less than 0.3 `depth` at a
-  /// rounding that vanishes, and 0.01 `depth` at the edge of a step.
+  /// rounding that vanishes, and 0.01 `depth` or 0.002 mm at the edge of a step.
   std::optional<RevolvedBody> reduced(double depth) const;
 
  private:

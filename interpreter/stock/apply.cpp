@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "interpreter/solids/clearance.h"
 #include "interpreter/stock/stock.h"
 #include "interpreter/stock/unit_sweep.h"
 
@@ -119,9 +121,90 @@ void add(const DexelCount& count, const DexelGrid& part, double cell, double til
   take_deeper(count.inside, part, tilt, outcome.inside_depth, outcome.inside_point);
 }
 
+/// What sweeps that find have met in one tile, and what of the others is therefore known.
+class FoundInTile {
+ public:
+  /// What a unit counts without being looked at; none if it has to be.
+  std::optional<DexelCount> known(const Sweep& sweep, const UnitSweep& unit) {
+    if (sweep.purpose != SweepPurpose::Find || !sweep_) return std::nullopt;
+    if (unit.sweep == *sweep_) {
+      const bool is_known = is_whole_ || (piece_ == unit.piece && std::holds_alternative<TurningPath>(sweep.path));
+      return is_known ? std::optional(DexelCount()) : std::nullopt;
+    }
+    if (!sweep.contains_last || unit.sweep != *sweep_ + 1) return std::nullopt;
+    sweep_ = unit.sweep;
+    is_whole_ = true;
+    return count_;
+  }
+
+  void note(const UnitSweep& unit, const DexelCount& count) {
+    if (count.all.row < 0) return;
+    if (sweep_ != unit.sweep || count.all.depth > count_.all.depth) count_ = count;
+    sweep_ = unit.sweep;
+    piece_ = unit.piece;
+    is_whole_ = false;
+  }
+
+ private:
+  std::optional<std::uint32_t> sweep_;  ///< The last one that has met something.
+  std::uint32_t piece_ = 0;             ///< The piece of its body that did.
+  bool is_whole_ = false;               ///< Nothing else of it counts.
+  DexelCount count_;                    ///< The deepest.
+};
+
+/// Sweeps that turn have many units; asks once for all of them whether they pass a tile.
+class PassedTile {
+ public:
+  explicit PassedTile(std::span<const UnitSweep> units_of_all) : all_(units_of_all) {}
+
+  /// `units` are the indexes of the tile's units, `i` the present one.
+  bool is_passed(const Sweep& sweep, std::span<const std::uint32_t> units, std::size_t i, const DexelGrid& part,
+                 const Tile& tile) {
+    const UnitSweep& unit = all_[units[i]];
+    if (sweep_ == unit.sweep) return is_passed_;
+    sweep_ = unit.sweep;
+    is_passed_ = false;
+    const auto* const path = std::get_if<TurningPath>(&sweep.path);
+    const bool has_many = i + kMany < units.size() && all_[units[i + kMany]].sweep == unit.sweep;
+    if (!path || !has_many) return false;
+    const Vec3 axis = path->from.axis + path->to.axis;
+    const double length = axis.norm();
+    if (!(length > 1)) return false;
+    const solids::RevolvedBody& body = *sweep.body;
+    const solids::AxisPlacement middle{(path->from.origin + path->to.origin) / 2, axis / length};
+    // No point of the body leaves its place in the middle by more.
+    const double most =
+        (path->to.origin - path->from.origin).norm() / 2 +
+        body.reach(0) * std::max((path->to.axis - middle.axis).norm(), (path->from.axis - middle.axis).norm());
+    const solids::Cuboid box{{part.x(0), part.y(0), static_cast<double>(tile.floor())},
+                             {part.x(part.columns - 1), part.y(part.rows - 1), static_cast<double>(tile.ceiling())}};
+    is_passed_ = solids::clearance(body, middle, box, most).lower >= most;
+    return is_passed_;
+  }
+
+ private:
+  static constexpr std::size_t kMany = 4;
+
+  std::span<const UnitSweep> all_;
+  std::optional<std::uint32_t> sweep_;
+  bool is_passed_ = false;
+};
+
+/// Sweeps that are divided into units at once.
+constexpr std::size_t kAtOnce = 8192;
+
 }  // namespace
 
 std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Workers& workers) {
+  std::vector<SweepOutcome> outcomes;
+  outcomes.reserve(sweeps.size());
+  for (std::size_t i = 0; i < sweeps.size(); i += kAtOnce)
+    for (const SweepOutcome& each : apply_together(sweeps.subspan(i, std::min(kAtOnce, sweeps.size() - i)), workers))
+      outcomes.push_back(each);
+  return outcomes;
+}
+
+std::vector<SweepOutcome> Stock::apply_together(std::span<const Sweep> sweeps, const Workers& workers) {
   std::vector<SweepOutcome> outcomes(sweeps.size());
   const UnitSweeps divided(sweeps, spacing(), bounds().max().z());
   const TileBins bins(divided.units(), grid());
@@ -136,16 +219,24 @@ std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Work
     const auto units = bins.units_of(index);
     bool is_cut = false;
     const UnitSweep* before = nullptr;  // The last one that has cut.
+    FoundInTile found;
+    PassedTile passed(divided.units());
     for (std::size_t i = 0; i < units.size(); ++i) {
       const UnitSweep& unit = divided.units()[units[i]];
       const Sweep& sweep = sweeps[unit.sweep];
       const Tile& present = changed ? *changed : *pointer;
       if (!(unit.bounds.min().z() < present.ceiling() && unit.bounds.max().z() > present.floor())) continue;
+      if (passed.is_passed(sweep, units, i, part, present)) continue;
       DexelCount& count = counts[bins.start_of(index) + i];
-      if (sweep.purpose == SweepPurpose::Ask) {
-        DexelSink sink(present, part);
+      if (sweep.purpose != SweepPurpose::Cut) {
+        if (const auto known = found.known(sweep, unit)) {
+          count = *known;
+          continue;
+        }
+        DexelSink sink(present, part, sweep.purpose == SweepPurpose::Find);
         divided.apply(unit, nullptr, sink);
         count = sink.count();
+        found.note(unit, count);
         continue;
       }
       if (!changed) {

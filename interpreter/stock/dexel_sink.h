@@ -15,13 +15,16 @@ class DexelSink {
  public:
   DexelSink(Tile& tile, const DexelGrid& grid, CutTag tag, const CutBand& band)
       : grid_(grid), tile_(tile), cut_(&tile), tag_(tag), count_(band, grid.first, grid.spacing) {}
-  DexelSink(const Tile& tile, const DexelGrid& grid) : grid_(grid), tile_(tile), count_({}, grid.first, grid.spacing) {}
+  DexelSink(const Tile& tile, const DexelGrid& grid, bool only_finds = false)
+      : grid_(grid), tile_(tile), only_finds_(only_finds), count_({}, grid.first, grid.spacing) {}
 
   const DexelGrid& grid() const { return grid_; }
   double floor() const { return tile_.floor(); }
   double ceiling() const { return tile_.ceiling(); }
   bool has_material_in(const HeightInterval& z) const { return z.bottom < ceiling() && z.top > floor(); }
   bool cuts() const { return cut_ != nullptr; }
+  /// Whether it counts whether material is met, and less exactly how much.
+  bool only_finds() const { return only_finds_; }
   const DexelCount& count() const { return count_; }
 
   /// For a body that cuts and reaches above all material: the upper ends of the dexels of a row from a column on, if
@@ -85,6 +88,7 @@ class DexelSink {
   const DexelGrid& grid_;
   const Tile& tile_;
   Tile* cut_ = nullptr;
+  bool only_finds_ = false;
   CutTag tag_ = 0;
   CutCount count_;
   std::array<float, Tile::kSize> bottoms_;

@@ -37,8 +37,8 @@ class Stock {
   Stock(const solids::BoundingBox& bounds, int columns, int rows, std::vector<std::shared_ptr<Tile>> tiles);
 
   /// Applies the sweeps in their order, and returns the outcome of each. Stock and outcomes are the same to the last
-  /// bit for any number of threads, and for any division of the sweeps into calls. Without `workers`, works on the
-  /// caller's thread. Other threads may use copies of the stock meanwhile.
+  /// bit for any number of threads, and, but for the depths of those that find, for any division of the sweeps into
+  /// calls. Without `workers`, works on the caller's thread. Other threads may use copies of the stock meanwhile.
   std::vector<SweepOutcome> apply(std::span<const Sweep> sweeps, const Workers& workers = {});
 
   const DexelGrid& grid() const { return tree_->grid; }
@@ -77,6 +77,7 @@ class Stock {
   };
 
   Stock(const solids::BoundingBox& bounds, const DexelGrid& over);
+  std::vector<SweepOutcome> apply_together(std::span<const Sweep> sweeps, const Workers& workers);
   const TilePointer& tile_at(const TileIndex& index) const;
   TilePointer& tile_to_cut(const TileIndex& index);
   void own(std::span<const TileIndex> tiles);

@@ -35,6 +35,9 @@ using SweepPath = std::variant<StraightPath, HelixPath, TurningPath>;
 enum class SweepPurpose : std::uint8_t {
   Cut,  ///< Removes material.
   Ask,  ///< Counts the material that is met, and leaves it.
+  /// Says as exactly whether material is met, and less exactly how much: where the body is deep in it, every 8th dexel
+  /// counts, and while the axis turns, the first place at which a piece of the body meets a tile.
+  Find,
 };
 
 /// A body along a piece of path. Values that are not finite, or above solids::kMaxCoordinate, make a sweep that does
@@ -48,6 +51,8 @@ struct Sweep {
   /// leaves out, mm; at most half the radius. 0: nothing is left out.
   double side_rim = 0;
   double end_rim = 0;
+  /// The body contains that of the sweep before, which asks or finds on the same path. Finds where that one does.
+  bool contains_last = false;
 };
 
 /// What a sweep has removed, or met.

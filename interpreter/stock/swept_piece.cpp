@@ -21,6 +21,7 @@ constexpr float kTiny = 1e-20F;
 constexpr float kHuge = 1e20F;
 constexpr double kFloatError = 1e-5;  ///< Far more than rounding to floats moves a point, as a part of the size.
 constexpr double kConverged = 1e-7;   // mm
+constexpr double kDeep = 2;           ///< A body so far in material, mm, is found by few of its dexels.
 constexpr double kNoSkin = 1e-4;      ///< Pieces of a body that are so near, mm, have nothing between them.
 
 /// Without the upper part of its core that is above `ceiling` all along the travel.
@@ -357,44 +358,53 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
       for (std::size_t i = 0; i < kTogether; ++i) clearances[i] = std::min(clearances[i], each[i]);
     }
   };
-  for (int row = all.first_row; row < all.last_row; ++row) {
-    int first = grid.columns;
-    int last = 0;
-    for (Window& window : windows) {
-      window.is_in_row = row >= window.first_row && row < window.last_row;
-      if (!window.is_in_row) continue;
-      const HeightInterval shadow = window.piece->shadow(grid.y(row));
-      window.first = grid.first_column(shadow.bottom);
-      window.last = grid.first_column(shadow.top);
-      window.is_in_row = window.first < window.last;
-      if (!window.is_in_row) continue;
-      first = std::min(first, window.first);
-      last = std::max(last, window.last);
-    }
-    for (int group = first; group < last; group += kTogether) {
-      const int size = std::min(kTogether, last - group);
-      Floats tops;
-      tops.fill(kNothing);
-      sink.highest(row, group, size, tops.data());
-      Floats clearances;
-      clearances.fill(1);
-      clear(row, group, size, tops, clearances);
-      // The dexels in which the sweep may meet material.
-      std::array<int, kTogether> open;
-      int count = 0;
-      for (int i = 0; i < size; ++i) {
-        const auto lane = static_cast<std::size_t>(i);
-        open[static_cast<std::size_t>(count)] = i;
-        const bool is_open = !(clearances[lane] > 0) && tops[lane] > kNothing;
-        count += is_open ? 1 : 0;
+  // Rows from the `from`-th one on, each `step`-th one; in a group of dexels, `most` of them.
+  const auto take_rows = [&](int from, int step, int most) {
+    for (int row = from; row < all.last_row; row += step) {
+      int first = grid.columns;
+      int last = 0;
+      for (Window& window : windows) {
+        window.is_in_row = row >= window.first_row && row < window.last_row;
+        if (!window.is_in_row) continue;
+        const HeightInterval shadow = window.piece->shadow(grid.y(row));
+        window.first = grid.first_column(shadow.bottom);
+        window.last = grid.first_column(shadow.top);
+        window.is_in_row = window.first < window.last;
+        if (!window.is_in_row) continue;
+        first = std::min(first, window.first);
+        last = std::max(last, window.last);
       }
-      for (int i = 0; i < count; ++i) {
-        const int lane = open[static_cast<std::size_t>(i)];
-        sink.set(0, take(row, group + lane));
-        sink.take_row(row, group + lane, group + lane + 1);
+      for (int group = first; group < last; group += kTogether) {
+        const int size = std::min(kTogether, last - group);
+        Floats tops;
+        tops.fill(kNothing);
+        sink.highest(row, group, size, tops.data());
+        Floats clearances;
+        clearances.fill(1);
+        clear(row, group, size, tops, clearances);
+        // The dexels in which the sweep may meet material.
+        std::array<int, kTogether> open;
+        int count = 0;
+        for (int i = 0; i < size; ++i) {
+          const auto lane = static_cast<std::size_t>(i);
+          open[static_cast<std::size_t>(count)] = i;
+          const bool is_open = !(clearances[lane] > 0) && tops[lane] > kNothing;
+          count += is_open ? 1 : 0;
+        }
+        count = std::min(count, most);
+        for (int i = 0; i < count; ++i) {
+          const int lane = open[static_cast<std::size_t>(i)];
+          sink.set(0, take(row, group + lane));
+          sink.take_row(row, group + lane, group + lane + 1);
+        }
       }
     }
+  };
+  if (sink.only_finds()) {
+    take_rows(all.first_row, kTogether, 1);
+    if (static_cast<double>(sink.count().all.depth) > kDeep) return;
   }
+  take_rows(all.first_row, 1, kTogether);
 }
 
 }  // namespace isocnc::stock

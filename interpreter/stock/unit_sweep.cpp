@@ -61,7 +61,7 @@ Frustum slab(const Frustum& core, double bottom, double top) {
 }
 
 SweptShape shape_of_body(const solids::RevolvedBody& body, SweepPurpose purpose) {
-  const double margin = purpose == SweepPurpose::Ask ? kAskMargin : 0;
+  const double margin = purpose == SweepPurpose::Cut ? 0 : kAskMargin;
   SweptShape shape{.columns = chords::columns_of(body, false, margin),
                    .turned_over = chords::columns_of(body, true, margin),
                    .body_pieces = body.pieces().size(),
@@ -123,6 +123,7 @@ std::uint32_t UnitSweeps::shape_index(const solids::RevolvedBody& body, SweepPur
 void UnitSweeps::append(const Sweep& sweep, std::uint32_t index) {
   if (!sweep.body || !std::visit([](const auto& path) { return is_usable(path); }, sweep.path)) return;
   sweep_ = index;
+  piece_ = 0;
   shape_ = shape_index(*sweep.body, sweep.purpose);
   std::visit([&](const auto& path) { append(path); }, sweep.path);
 }
@@ -149,7 +150,8 @@ void UnitSweeps::append_upright(const std::variant<UprightLine, LevelArc, Slante
 
 void UnitSweeps::append_slanted(const AxisPlacement& from, const Vec3& travel, std::size_t first_piece,
                                 std::size_t piece_count) {
-  UnitSweep unit{.sweep = sweep_, .shape = shape_, .motion = SlantedLine{from, travel, first_piece, piece_count}};
+  UnitSweep unit{
+      .sweep = sweep_, .shape = shape_, .piece = piece_, .motion = SlantedLine{from, travel, first_piece, piece_count}};
   for (std::size_t i = 0; i < piece_count; ++i)
     unit.bounds.extend(swept_bounds(shape().pieces[first_piece + i], from, travel));
   units_.push_back(unit);
@@ -214,6 +216,7 @@ void UnitSweeps::append(const TurningPath& path) {
 /// - A straight motion whose axis stands as in its middle deviates by half the angle times the distance from the middle
 ///   of the piece, at most half the tolerance, and its chord by at most a quarter.
 void UnitSweeps::append_turn(const TurningPath& path, std::size_t piece_index) {
+  piece_ = static_cast<std::uint32_t>(piece_index);
   const AxisTurn turn(path.from.axis, path.to.axis);
   const BodyPiece piece = shape().pieces[piece_index];
   const double widest = std::max(piece.core.bottom_radius, piece.core.top_radius) + piece.rounding;

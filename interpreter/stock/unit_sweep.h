@@ -42,6 +42,7 @@ struct UnitSweep {
   std::uint32_t sweep = 0;  ///< Index of the sweep.
   std::uint32_t shape = 0;  ///< Index of the shape.
   bool is_upside_down = false;
+  std::uint32_t piece = 0;  ///< While the axis turns: which piece of the body this is a place or an end of.
   std::variant<UprightLine, LevelArc, SlantedLine> motion;
   solids::BoundingBox bounds;
 };
@@ -83,6 +84,7 @@ class UnitSweeps {
   std::pair<const solids::RevolvedBody*, SweepPurpose> last_body_ = {nullptr, SweepPurpose::Cut};
   std::uint32_t shape_ = 0;  ///< Of the sweep that is being divided.
   std::uint32_t sweep_ = 0;  ///< Its index.
+  std::uint32_t piece_ = 0;  ///< The index of the piece that is being divided.
 };
 
 }  // namespace isocnc::stock

@@ -76,6 +76,17 @@ TEST(ReducedBody, KeepsWhatIsDeepEnough) {
   }
 }
 
+/// Every place of a body is compared with the material piece by piece: a few for a holder of three steps.
+TEST(ReducedBody, OfAHolderHasFewPieces) {
+  const RevolvedBody holder(
+      {{.core = {70, 12.5, 120, 20}}, {.core = {120, 15, 160, 25}}, {.core = {160, 31.5, 183, 31.5}}});
+  const RevolvedBody reduced = *holder.reduced(0.08);
+  EXPECT_LE(reduced.pieces().size(), 12U);
+  EXPECT_DOUBLE_EQ(reduced.bottom(), 70.08);
+  EXPECT_DOUBLE_EQ(reduced.top(), 183);
+  EXPECT_DOUBLE_EQ(reduced.maximum_radius(), 31.42);
+}
+
 /// Finishing at distance 0 is clear of the target, and a cut below its surface is as deep as it is.
 TEST(ReducedBody, OfACutterLeavesAFinishingPassClear) {
   const Cuboid part{{0, 0, -20}, {100, 100, 0}};

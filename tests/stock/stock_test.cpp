@@ -211,6 +211,50 @@ TEST(Stock, AskingSeesTheStockOfItsMoment) {
   EXPECT_GT(outcomes[4].point.x(), 120);
 }
 
+/// What finds meets material where what asks does, and nowhere else; and so does a larger body that follows.
+TEST(Stock, FindingMeetsWhatAskingMeets) {
+  const RevolvedBody holder({{.core = {20, 12, 60, 18}}, {.core = {60, 14, 120, 30}}});
+  const RevolvedBody grown({{.core = {20, 12, 60, 18}, .rounding = 1.5}, {.core = {60, 14, 120, 30}, .rounding = 1.5}});
+  int met = 0;
+  int grown_alone = 0;
+  int deep = 0;
+  for (const std::uint64_t seed : support::seeds(5)) {
+    Random random(seed);
+    Stock stock(kPlate, 0.7);
+    stock.apply(SomeSweeps().make(seed, 30));
+    std::vector<Sweep> asked;
+    for (int i = 0; i < 25; ++i) {
+      const Vec3 at(random.real(-40, 340), random.real(-40, 240), random.real(-40, 20));
+      const Vec3 to = at + Vec3(random.real(-9, 9), random.real(-9, 9), random.real(-4, 4));
+      const double degrees = random.real(-120, 120);
+      Sweep sweep = line(holder, at, to, tilted(degrees));
+      if (!random.one_in(4)) sweep = turn(holder, {at, tilted(degrees)}, {to, tilted(degrees + random.real(-4, 4))});
+      asked.push_back(asking(sweep));
+      sweep.body = &grown;
+      asked.push_back(asking(sweep));
+    }
+    std::vector<Sweep> found = asked;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      found[i].purpose = SweepPurpose::Find;
+      found[i].contains_last = i % 2 == 1;
+    }
+    const auto of_asked = stock.apply(asked);
+    const auto of_found = stock.apply(found, threads(3));
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      ASSERT_EQ(of_found[i].meets(), of_asked[i].meets()) << "seed " << seed << ", sweep " << i;
+      EXPECT_LE(of_found[i].depth, of_asked[i].depth) << "seed " << seed << ", sweep " << i;
+      met += of_asked[i].meets() ? 1 : 0;
+      deep += of_found[i].volume < of_asked[i].volume ? 1 : 0;
+      grown_alone += i % 2 == 1 && of_asked[i].meets() && !of_asked[i - 1].meets() ? 1 : 0;
+    }
+    expect_same(stock.apply(found), of_found);
+  }
+  if (!support::kTriesAll) return;
+  EXPECT_GT(met, 50);
+  EXPECT_GT(deep, 20) << "finding is to look at less";
+  EXPECT_GT(grown_alone, 0);
+}
+
 TEST(Stock, DepthIsAlongTheAxis) {
   const RevolvedBody tool = flat(5, 100);
   Stock stock(box({0, 0, -50}, {100, 100, 0}), 0.5);
