@@ -254,6 +254,9 @@ void MaterialCheck::append_sweeps(const TipPath& piece, bool is_feed) {
   append_sweep(forms_->nose_with_clearance(), piece, Role::NoseNear);
 }
 
+/// A cut that is deeper is too deep, mm.
+double MaterialCheck::depth_limit() const { return forms_->tool().max_depth + rim_of(stock_.spacing()); }
+
 void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece, Role role) {
   if (!body) return;
   SweepPath path = placed(piece.path, role);
@@ -269,6 +272,7 @@ void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece,
                      .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Find,
                      .side_rim = std::max(skin_, body->maximum_radius() * kRimShare),
                      .end_rim = role == Role::Cut ? end_rim(piece) : 0,
+                     .depth_limit = depth_limit(),
                      .contains_last = contains_last});
   uses_.push_back({static_cast<std::uint32_t>(waiting_.size() - 1), role, piece.from, piece.to});
 }
@@ -425,7 +429,7 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
 void MaterialCheck::look_at(std::size_t sweep, const SweepOutcome& outcome) {
   switch (uses_[sweep].role) {
     case Role::Cut:
-      if (outcome.inside_depth > forms_->tool().max_depth + rim_of(stock_.spacing())) {
+      if (outcome.inside_depth > depth_limit()) {
         SweepOutcome inside = outcome;
         inside.depth = outcome.inside_depth;
         inside.point = outcome.inside_point;

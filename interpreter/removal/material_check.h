@@ -144,6 +144,7 @@ class MaterialCheck {
   void form(const CuttingTool& tool);
   void stand(const running::Event& event, double time, const geometry::Frame& frame);
   void append_pieces(bool is_feed);
+  double depth_limit() const;
   double end_rim(const TipPath& piece) const;
   void show_moments(const motion::Stretch& stretch);
   Cutting cutting_of(bool is_feed) const;

@@ -244,7 +244,7 @@ std::vector<SweepOutcome> Stock::apply_together(std::span<const Sweep> sweeps, c
         std::atomic_thread_fence(std::memory_order_acquire);
         changed->prepare();
       }
-      DexelSink sink(*changed, part, sweep.tag, band_of(unit, divided.shape_of(unit), sweep));
+      DexelSink sink(*changed, part, sweep.tag, band_of(unit, divided.shape_of(unit), sweep), sweep.depth_limit);
       divided.apply(unit, before, sink);
       before = &unit;
       count = sink.count();

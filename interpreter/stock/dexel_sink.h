@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <vector>
 
 #include "interpreter/stock/grid.h"
 
@@ -10,11 +12,19 @@ namespace isocnc::stock {
 /// Dexels that a sweep looks at together: as many floats as the vectors of a usual processor hold.
 inline constexpr int kTogether = 8;
 
+/// Touching bodies seem to share so much of a dexel by rounding, mm.
+inline constexpr double kSliver = 0.01;
+
 /// Takes the intervals of dexels of one tile that a sweep covers, and cuts them, or only counts the material in them.
 class DexelSink {
  public:
-  DexelSink(Tile& tile, const DexelGrid& grid, CutTag tag, const CutBand& band)
-      : grid_(grid), tile_(tile), cut_(&tile), tag_(tag), count_(band, grid.first, grid.spacing) {}
+  DexelSink(Tile& tile, const DexelGrid& grid, CutTag tag, const CutBand& band, double depth_limit)
+      : grid_(grid),
+        tile_(tile),
+        cut_(&tile),
+        tag_(tag),
+        depth_limit_(depth_limit),
+        count_(band, grid.first, grid.spacing) {}
   DexelSink(const Tile& tile, const DexelGrid& grid, bool only_finds = false)
       : grid_(grid), tile_(tile), only_finds_(only_finds), count_({}, grid.first, grid.spacing) {}
 
@@ -26,6 +36,14 @@ class DexelSink {
   /// Whether it counts whether material is met, and less exactly how much.
   bool only_finds() const { return only_finds_; }
   const DexelCount& count() const { return count_; }
+
+  /// The material of a dexel within an interval, without what is shorter than kSliver.
+  std::vector<HeightInterval> material(int row, int column, const HeightInterval& within) const {
+    std::vector<HeightInterval> all = tile_.intervals(row, column);
+    for (HeightInterval& each : all) each.clip(within);
+    std::erase_if(all, [](const HeightInterval& each) { return !(each.top - each.bottom > kSliver); });
+    return all;
+  }
 
   /// For a body that cuts and reaches above all material: the upper ends of the dexels of a row from a column on, if
   /// each has at most one interval; else null. A dexel that ends below the body's lower surface need not be taken.
@@ -77,6 +95,10 @@ class DexelSink {
       tile_.meet_row(row, column, column + 1, &bottom, &top, count_);
     }
   }
+  /// Deeper cuts are measured along the axis, mm.
+  double depth_limit() const { return depth_limit_; }
+  /// What part of their length along the axis the dexels that are cut next are deep.
+  void set_share(double share) { count_.set_share(share); }
   /// The same for many, by which loops over them become vectors: floats that are rounded already.
   float* bottoms() { return bottoms_.data(); }
   float* tops() { return tops_.data(); }
@@ -90,6 +112,7 @@ class DexelSink {
   Tile* cut_ = nullptr;
   bool only_finds_ = false;
   CutTag tag_ = 0;
+  double depth_limit_ = std::numeric_limits<double>::infinity();
   CutCount count_;
   std::array<float, Tile::kSize> bottoms_;
   std::array<float, Tile::kSize> tops_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <variant>
 
 #include "interpreter/geometry/helix.h"
@@ -51,6 +52,10 @@ struct Sweep {
   /// leaves out, mm; at most half the radius. 0: nothing is left out.
   double side_rim = 0;
   double end_rim = 0;
+  /// Along an axis that is tilted the depth follows from the vertical dexels, which at the sides of a ball or a disc
+  /// say too much. Where it is more than this, mm, SweepOutcome::inside_depth is measured along the axis, from material
+  /// to where the body ends. This takes time.
+  double depth_limit = std::numeric_limits<double>::infinity();
   /// The body contains that of the sweep before, which asks or finds on the same path. Finds where that one does.
   bool contains_last = false;
 };
@@ -64,7 +69,8 @@ struct SweepOutcome {
   double length = 0;                              ///< Greatest length of material in one dexel, vertical as it is, mm.
   geometry::Vec3 point = geometry::Vec3::Zero();  ///< Lower end of that material; of equal ones, the first in order.
 
-  /// Of cuts: the depth, and its point, without the rims. Where the axis turns at one place, nothing is left out.
+  /// Of cuts: the depth, and its point, without the rims. Where the axis turns at one place, nothing is left out. What
+  /// a tilted ball or bull nose takes off a slope counts as a layer that is parallel to what it leaves.
   double inside_depth = 0;
   geometry::Vec3 inside_point = geometry::Vec3::Zero();
 

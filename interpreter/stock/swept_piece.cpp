@@ -303,10 +303,46 @@ HeightInterval SweptPiece::rounded_chord(const Vec2& line) const {
   return std::isnan(top) ? HeightInterval() : HeightInterval{bottom, top};
 }
 
+bool SweptPiece::contains(const Vec3& point) const { return out_of_core(point).norm() <= piece_.rounding + kConverged; }
+
 static constexpr float kNothing = -std::numeric_limits<float>::infinity();
 
+/// The greatest way from material of a vertical line, along the axis towards the tip, out of the sweep, mm, at most
+/// `most`; 0 if it is not above `least`. Where the material ends at a pass before this one that was parallel to it, no
+/// point is deeper in the sweep than the two passes are apart; on the line itself, at the side of a ball, may be as
+/// much as the wall is high.
+static double depth_along_axis(std::span<const SweptPiece> pieces, const Vec2& line,
+                               std::span<const HeightInterval> material, double least, double most) {
+  constexpr int kPoints = 8;
+  constexpr int kHalvings = 12;
+  constexpr double kBelowEnd = 0.995;
+  const Vec3 axis = pieces.front().axis();
+  const auto is_in = [&](double height, double way) {
+    const Vec3 point = Vec3(line.x(), line.y(), height) - way * axis;
+    return std::any_of(pieces.begin(), pieces.end(), [&](const SweptPiece& piece) { return piece.contains(point); });
+  };
+  double deepest = least;
+  for (const HeightInterval& z : material)
+    for (int i = 1; i <= kPoints && deepest < most; ++i) {
+      // At the upper end itself the side of the body, which earlier passes share, would seem to be as deep as it is
+      // long.
+      const double share = std::min(static_cast<double>(i) / kPoints, kBelowEnd);
+      const double height = z.bottom + (z.top - z.bottom) * share;
+      if (!is_in(height, deepest)) continue;
+      double out = most;
+      if (is_in(height, most)) deepest = most;
+      for (int halving = 0; halving < kHalvings && deepest < most; ++halving) {
+        const double middle = (deepest + out) / 2;
+        (is_in(height, middle) ? deepest : out) = middle;
+      }
+    }
+  return deepest > least ? deepest : 0;
+}
+
 void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
+  if (pieces.empty()) return;
   const DexelGrid& grid = sink.grid();
+  const double rise = std::abs(pieces.front().axis().z());
   struct Window {
     const SweptPiece* piece;
     int first_row, last_row, first, last;
@@ -327,7 +363,8 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
     all.last = std::max(all.last, window.last);
   }
   std::vector<HeightInterval> met;
-  const auto take = [&](int row, int column) {
+  // `material_top` is the highest end of the dexel's material.
+  const auto take = [&](int row, int column, double material_top) {
     const Vec2 line(grid.x(column), grid.y(row));
     met.clear();
     for (const Window& window : windows) {
@@ -338,6 +375,17 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
     if (met.empty()) return HeightInterval();
     std::sort(met.begin(), met.end(),
               [](const HeightInterval& left, const HeightInterval& right) { return left.bottom < right.bottom; });
+    sink.set_share(1);
+    HeightInterval whole = met.front();
+    for (const HeightInterval& each : met) whole.include(each);
+    const double least = std::max(sink.depth_limit(), static_cast<double>(sink.count().inside.depth) * rise);
+    if ((std::min(whole.top, material_top) - whole.bottom) * rise > least) {
+      const std::vector<HeightInterval> material = sink.material(row, column, whole);
+      double length = 0;
+      for (const HeightInterval& each : material) length += each.top - each.bottom;
+      const double most = length * rise;
+      if (most > least) sink.set_share(depth_along_axis(pieces, line, material, least, most) / most);
+    }
     HeightInterval present = met.front();
     for (const HeightInterval& next : met) {
       if (next.bottom > present.top + kNoSkin) {
@@ -394,7 +442,7 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
         count = std::min(count, most);
         for (int i = 0; i < count; ++i) {
           const int lane = open[static_cast<std::size_t>(i)];
-          sink.set(0, take(row, group + lane));
+          sink.set(0, take(row, group + lane, static_cast<double>(tops[static_cast<std::size_t>(lane)])));
           sink.take_row(row, group + lane, group + lane + 1);
         }
       }

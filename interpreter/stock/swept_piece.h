@@ -23,6 +23,9 @@ class SweptPiece {
   const solids::BoundingBox& bounds() const { return bounds_; }
   HeightInterval chord(const geometry::Vec2& line) const;
 
+  bool contains(const geometry::Vec3& point) const;
+  const geometry::Vec3& axis() const { return from_.axis; }
+
   /// From where to where along x the lines at a y may meet the sweep: a polygon around its shadow.
   HeightInterval shadow(double y) const;
   /// Of the lines at x, x + step, and so on, all at y, sets a number above 0 for those that surely meet nothing at

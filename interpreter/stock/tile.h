@@ -28,9 +28,10 @@ struct DeepestDexel {
 
 /// What one sweep removes from the dexels of a tile, or meets in them.
 struct DexelCount {
-  double length = 0;    ///< Sum over the dexels, mm, each in steps of 2^-30 mm.
-  DeepestDexel all;     ///< Of all dexels.
-  DeepestDexel inside;  ///< Of cuts: of the dexels that are not at the rim of what the sweep covers.
+  double length = 0;  ///< Sum over the dexels, mm, each in steps of 2^-30 mm.
+  DeepestDexel all;   ///< Of all dexels.
+  /// Of cuts: of the dexels that are not at the rim of what the sweep covers; as deep as Sweep::depth_limit says.
+  DeepestDexel inside;
 };
 
 /// A count of what is cut, and the places that are not at the rim.
@@ -43,15 +44,18 @@ class CutCount : public DexelCount {
   /// Notes what has been removed of a dexel.
   void note(int row, int column, float depth, float bottom) {
     if (depth > all.depth) all = {depth, row, column, bottom};
-    if (depth > inside.depth && band_.contains({first_.x() + column * spacing_.x(), first_.y() + row * spacing_.y(),
+    const float along = depth * share_;
+    if (along > inside.depth && band_.contains({first_.x() + column * spacing_.x(), first_.y() + row * spacing_.y(),
                                                 static_cast<double>(bottom)}))
-      inside = {depth, row, column, bottom};
+      inside = {along, row, column, bottom};
   }
+  void set_share(double share) { share_ = static_cast<float>(share); }
 
  private:
   CutBand band_;
   geometry::Vec2 first_;
   geometry::Vec2 spacing_;
+  float share_ = 1;
 };
 
 /// An interval of a dexel of a tile, mm.

@@ -170,5 +170,28 @@ TEST(ClosedForm, TurningCapsule) {
     EXPECT_NEAR(error_of(stock, {turn(*tool, at(-0.6), at(th - 0.6))}, expected), 0, 0.004);
 }
 
+/// The second pass is the first one, further along the tilted axis: whatever it meets, it takes this depth.
+TEST(ClosedForm, DepthOfAPassAlongASlope) {
+  const double depth = 0.8;
+  for (const RevolvedBody& tool : {ball(10, 60), body(solids::bull_body(10, 3, 60)), flat(10, 60)})
+    for (const double degrees : {-60.0, 20.0, 50.0})
+      for (const double travel_x : {40.0, 3.0})
+        for (const double climb : {-0.7, 0.0, 0.7}) {
+          Stock stock(box({-60, -40, -40}, {60, 40, 0}), 0.4);
+          const Vec3 axis = tilted(degrees);
+          const Vec3 from(-travel_x / 2, -5, -9 - climb * travel_x / 2);
+          const Vec3 to(travel_x / 2, 5, -9 + climb * travel_x / 2);
+          Sweep pass = line(tool, from, to, axis);
+          pass.side_rim = 1;
+          apply(stock, pass);
+          pass = line(tool, from - depth * axis, to - depth * axis, axis, 2);
+          pass.side_rim = 1;
+          pass.depth_limit = 0.5 * depth;
+          const SweepOutcome outcome = apply(stock, pass);
+          EXPECT_LT(outcome.inside_depth, depth + 0.02) << degrees << " degrees, X " << travel_x << ", climb " << climb;
+          EXPECT_GT(outcome.inside_depth, 0.9 * depth) << degrees << " degrees, X " << travel_x << ", climb " << climb;
+        }
+}
+
 }  // namespace
 }  // namespace isocnc::stock::cuts
