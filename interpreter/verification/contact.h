@@ -78,6 +78,7 @@ struct Certificate {
   /// where all of the disc is deeper in it than this, mm.
   std::optional<double> soft_depth;
   std::optional<stock::Window> window;  ///< Outside of it nothing is known of the material; frame of the setup.
+  bool is_window_empty = false;         ///< Nothing of the blank is in it.
   std::string scene;                    ///< The file that describes the setup, or the machine; as shown to users.
   bool has_setup = true;                ///< Whether a setup is for the program.
   std::vector<Unverified> gaps;

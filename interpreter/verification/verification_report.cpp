@@ -63,8 +63,11 @@ static std::vector<std::string> not_verified(const Certificate& certificate, Lan
     gaps.emplace_back(Text{"no setup is for this program", "nessun attrezzaggio è per questo programma"}.in(language));
   if (const auto& window = certificate.window)
     gaps.push_back(dialect::format(
-        Text{"the material outside X{} to X{}, Y{} to Y{}", "il materiale fuori da X{} a X{}, da Y{} a Y{}"}, language,
-        window->min().x(), window->max().x(), window->min().y(), window->max().y()));
+        certificate.is_window_empty
+            ? Text{"the material, of which nothing is in X{} to X{}, Y{} to Y{}",
+                   "il materiale, di cui non c'è nulla da X{} a X{}, da Y{} a Y{}"}
+            : Text{"the material outside X{} to X{}, Y{} to Y{}", "il materiale fuori da X{} a X{}, da Y{} a Y{}"},
+        language, window->min().x(), window->max().x(), window->min().y(), window->max().y()));
   if (certificate.stopped_at)
     gaps.push_back(dialect::format(Text{"what follows the error on line {}", "ciò che segue l'errore alla linea {}"},
                                    language, *certificate.stopped_at + 1));

@@ -36,7 +36,8 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
   if (!workpiece) return;
   if (workpiece->window) certificate_.window = workpiece->window;
   // Where many programs are verified, the window may be beside the blank of one.
-  if (stock::bounds_of(workpiece->blank, workpiece->window).isEmpty()) return;
+  certificate_.is_window_empty = stock::bounds_of(workpiece->blank, workpiece->window).isEmpty();
+  if (certificate_.is_window_empty) return;
   if (const auto coarser = coarser_spacing(*workpiece)) {
     certificate_.gaps.push_back({.gap = Gap::ResolutionTooFine, .line = 0, .spacing = *coarser});
     return;
