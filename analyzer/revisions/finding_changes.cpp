@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <span>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "interpreter/comparison/comparison.h"
+#include "interpreter/dialect/codes.h"
+#include "interpreter/syntax/line_finder.h"
 
 namespace isocnc::revisions {
 
@@ -23,14 +28,19 @@ constexpr std::size_t kMaxCandidates = 256;
 /// What a finding is about, without its measure. Names from outside the programs count by their texts.
 using FindingSubject = std::tuple<dialect::DiagnosticId, std::uint8_t, std::uint32_t, std::uint32_t, double, double>;
 
+/// A length of a finding, mm to a thousandth: the units of the programs may differ.
+double in_mm(const syntax::Finding& finding, double length) {
+  return std::round(length * dialect::mm_per_unit(finding.is_in_inches) * 1000) / 1000;
+}
+
 FindingSubject subject_of(const syntax::Finding& finding) {
   const bool is_of_joint = finding.id == "joint-travel"_diag;
   return {finding.id,
           finding.cause,
           finding.names[0].number,
           finding.names[1].number,
-          is_of_joint ? finding.values[0] : 0,   // The axis.
-          is_of_joint ? finding.values[2] : 0};  // The end of its travel.
+          is_of_joint ? finding.values[0] : 0,                   // The axis.
+          is_of_joint ? in_mm(finding, finding.values[2]) : 0};  // The end of its travel.
 }
 
 /// Whether two findings about the same say the same. Places and times of contacts are where and when the machine is.
@@ -40,15 +50,37 @@ bool has_same_measure(const syntax::Finding& one, const syntax::Finding& other) 
   const bool is_of_scene = evidence == dialect::Evidence::Scene || evidence == dialect::Evidence::Stock;
   for (std::size_t i = 0; i < one.values.size(); ++i) {
     if (is_of_scene && i > 0 && i < 5) continue;
-    if (std::abs(one.values[i] - other.values[i]) > kShown) return false;
+    const double in_unit = std::abs(one.values[i] - other.values[i]);
+    const double length = std::abs(in_mm(one, one.values[i]) - in_mm(other, other.values[i]));
+    if (std::min(in_unit, length) > kShown) return false;
   }
   return true;
+}
+
+/// The S or F that a finding is about, in its unit; none of others, and where the program computes it.
+std::optional<double> quoted_number(const check::LocatedFinding& located, std::string_view line) {
+  const syntax::Finding& finding = located.finding;
+  if (finding.id != "spindle-speed-above-machine"_diag && finding.id != "feed-above-machine"_diag) return std::nullopt;
+  const std::string_view word = line.substr(std::min<std::size_t>(finding.span.begin + 1, line.size()),
+                                            finding.span.end - std::min(finding.span.end, finding.span.begin + 1));
+  const std::string number(word.substr(std::min(word.find_first_not_of(' '), word.size())));
+  char* end = nullptr;
+  const double value = std::strtod(number.c_str(), &end);
+  return end == number.c_str() ? std::nullopt : std::optional(value);
+}
+
+/// Whether two of these are the same, be it in millimeters and inches.
+bool is_same_number(const std::optional<double>& one, const std::optional<double>& other) {
+  if (!one || !other) return true;
+  const auto is_near = [&](double scale) { return std::abs(*one * scale - *other) <= 1e-3 * std::abs(*other); };
+  return is_near(1) || is_near(dialect::mm_per_unit(true)) || is_near(1 / dialect::mm_per_unit(true));
 }
 
 /// A finding, and the steps of both runs that its lines have a part in.
 struct PlacedFinding {
   std::size_t index = 0;
   FindingSubject subject;
+  std::optional<double> number;  ///< quoted_number()
   std::size_t first_step = 0;
   std::size_t last_step_of_line = 0;  ///< Of its first line.
   std::size_t last_step = 0;          ///< Of the last line that shows the same mistake.
@@ -75,6 +107,7 @@ std::vector<PlacedFinding> placed(const RevisionRun& run, const std::vector<Alig
     return static_cast<std::size_t>(step - steps.begin());
   };
   std::vector<PlacedFinding> found;
+  syntax::LineFinder lines(run.text);
   for (std::size_t i = 0; i < run.findings.findings.size(); ++i) {
     const check::LocatedFinding& located = run.findings.findings[i];
     const std::size_t first = std::min(first_from(located.line), actions.size() - 1);
@@ -82,6 +115,7 @@ std::vector<PlacedFinding> placed(const RevisionRun& run, const std::vector<Alig
     const std::span<const check::Repetition> repetitions = run.findings.repetitions_of(located);
     found.push_back({.index = i,
                      .subject = subject_of(located.finding),
+                     .number = quoted_number(located, lines.line(located.line)),
                      .first_step = step_of(first),
                      .last_step_of_line = last_step_of(located.line),
                      .last_step = last_step_of(repetitions.empty() ? located.line : repetitions.back().line)});
@@ -115,7 +149,7 @@ std::vector<FindingChange> finding_changes(const RevisionRun& old_run, const Rev
       for (std::size_t k = start; k < end && candidates[k]->first_step <= each.last_step; ++k) {
         PlacedFinding& other = *candidates[k];
         if (other.is_matched || other.last_step < each.first_step) continue;
-        const bool is_same = begin_together(each, other) &&
+        const bool is_same = begin_together(each, other) && is_same_number(each.number, other.number) &&
                              has_same_measure(finding(old_run, each.index), finding(new_run, other.index));
         if (is_exact && !is_same) continue;
         each.is_matched = other.is_matched = true;

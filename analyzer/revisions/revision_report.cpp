@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -101,16 +103,19 @@ std::string tools_text(const RevisionComparison& compared, Language language) {
 /// The messages of a run's findings.
 class FindingMessages {
  public:
-  FindingMessages(const RevisionRun& run, Language language) : run_(run), lines_(run.text), language_(language) {}
+  FindingMessages(const RevisionRun& run, Language language) : run_(run), language_(language) {
+    syntax::LineFinder lines(run.text);
+    for (const check::LocatedFinding& each : run.findings.findings) lines_.push_back(lines.line(each.line));
+  }
 
   const check::LocatedFinding& located(std::size_t index) const { return run_.findings.findings[index]; }
-  std::string of(std::size_t index) {
-    return text::printable(syntax::message(located(index).finding, lines_.line(located(index).line), language_));
+  std::string of(std::size_t index) const {
+    return text::printable(syntax::message(located(index).finding, lines_[index], language_));
   }
 
  private:
   const RevisionRun& run_;
-  syntax::LineFinder lines_;
+  std::vector<std::string_view> lines_;  ///< That of each finding.
   Language language_;
 };
 
@@ -193,23 +198,38 @@ std::string text_of(const RevisionComparison& compared, const TextStyle& style) 
          findings + stop + count_text(runs, style);
 }
 
+/// A jump that other values than those of the command lead along another path.
+struct OtherPath {
+  bool is_new = false;  ///< Of the new program.
+  std::string name;     ///< VGPL, or the register.
+  std::size_t line = 0;
+};
+
+/// Of the new program, and where it has none, of the old one.
+static std::vector<OtherPath> other_paths(const RevisionComparison& compared, Language language) {
+  std::vector<OtherPath> paths;
+  const auto add = [&](const RevisionRun& run, bool is_new) {
+    selection::VgplValues values(run.text);
+    values.take(run.path);
+    for (const verification::Unverified& gap : values.gaps()) {
+      const bool is_of_vgpl = gap.gap == verification::Gap::OtherPaths;
+      paths.push_back({is_new, is_of_vgpl ? "VGPL" : std::string(gap.name.in(language)), gap.line});
+    }
+  };
+  add(compared.new_run, true);
+  if (paths.empty()) add(compared.old_run, false);
+  return paths;
+}
+
 std::string other_paths_text(const RevisionComparison& compared, Language language) {
   static constexpr Text kOld{"not compared: other values of {} at the jump of old line {} (--all-paths)\n",
                              "non confrontato: altri valori di {} al salto della prima riga {} (--all-paths)\n"};
   static constexpr Text kNew{"not compared: other values of {} at the jump of line {} (--all-paths)\n",
                              "non confrontato: altri valori di {} al salto della riga {} (--all-paths)\n"};
-  const auto lines = [&](const RevisionRun& run, const Text& text) {
-    selection::VgplValues values(run.text);
-    values.take(run.path);
-    std::string result;
-    for (const verification::Unverified& gap : values.gaps()) {
-      const std::string_view name = gap.gap == verification::Gap::OtherPaths ? "VGPL" : gap.name.in(language);
-      result += dialect::format(text, language, name, gap.line + 1);
-    }
-    return result;
-  };
-  const std::string of_new = lines(compared.new_run, kNew);
-  return of_new.empty() ? lines(compared.old_run, kOld) : of_new;
+  std::string text;
+  for (const OtherPath& each : other_paths(compared, language))
+    text += dialect::format(each.is_new ? kNew : kOld, language, each.name, each.line + 1);
+  return text;
 }
 
 OrderedJson to_json(const RevisionComparison& compared, Language language) {
@@ -221,7 +241,11 @@ OrderedJson to_json(const RevisionComparison& compared, Language language) {
 }
 
 std::string json_of(const RevisionComparison& compared, Language language) {
-  return to_json(compared, language).dump() + '\n';
+  OrderedJson json = to_json(compared, language);
+  for (const OtherPath& each : other_paths(compared, language))
+    json["otherPaths"].push_back(
+        {{"revision", each.is_new ? "new" : "old"}, {"name", each.name}, {"line", each.line + 1}});
+  return json.dump() + '\n';
 }
 
 }  // namespace isocnc::revisions

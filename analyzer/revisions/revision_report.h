@@ -18,7 +18,7 @@ std::string other_paths_text(const RevisionComparison& compared, dialect::Langua
 
 /// As JSON (docs/isodiff.md).
 nlohmann::ordered_json to_json(const RevisionComparison& compared, dialect::Language language);
-/// As one line, with its line end.
+/// As one line, with its line end, and with the jumps of other_paths_text().
 std::string json_of(const RevisionComparison& compared, dialect::Language language);
 
 }  // namespace isocnc::revisions

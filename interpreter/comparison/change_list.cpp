@@ -69,6 +69,7 @@ std::string value_of(const RecordedRun& run, const MachineAction& action) {
       return shown(action.value) + " s";
     case ActionKind::Spindle:
       if (action.number == 5) return "M05";
+      if (action.number == 0) return "S" + shown(action.value);
       return fmt::format("S{} M{:02}", shown(action.value), action.number);
     case ActionKind::Function: {
       const running::FunctionEvent& function = run.functions[action.number];
@@ -114,14 +115,21 @@ std::optional<execution::ToolCode> tool_of(const RecordedRun& run, const Machine
 
 ChangeList::ChangeList(const RunPair& runs, const ComparisonOptions& options) : runs_(runs), options_(options) {}
 
+/// How long a run takes for a range of actions, seconds.
+static double seconds_of(const RecordedRun& run, std::size_t begin, std::size_t end) {
+  return begin < end ? run.actions[std::min(end, run.actions.size() - 1)].start - run.actions[begin].start : 0;
+}
+
 BehaviorChange& ChangeList::add(ChangeKind kind, const ActionRanges& at) {
-  BehaviorChange change{.kind = kind,
-                        .old_lines = lines_of(runs_.a, at.a_begin, at.a_end),
-                        .new_lines = lines_of(runs_.b, at.b_begin, at.b_end),
-                        .old_start = start_of(runs_.a, at.a_begin),
-                        .new_start = start_of(runs_.b, at.b_begin),
-                        .old_motions = motion_count(runs_.a, at.a_begin, at.a_end),
-                        .new_motions = motion_count(runs_.b, at.b_begin, at.b_end)};
+  BehaviorChange change{
+      .kind = kind,
+      .old_lines = lines_of(runs_.a, at.a_begin, at.a_end),
+      .new_lines = lines_of(runs_.b, at.b_begin, at.b_end),
+      .old_start = start_of(runs_.a, at.a_begin),
+      .new_start = start_of(runs_.b, at.b_begin),
+      .seconds = seconds_of(runs_.b, at.b_begin, at.b_end) - seconds_of(runs_.a, at.a_begin, at.a_end),
+      .old_motions = motion_count(runs_.a, at.a_begin, at.a_end),
+      .new_motions = motion_count(runs_.b, at.b_begin, at.b_end)};
   if (at.a_begin < at.a_end) change.old_tool = tool_of(runs_.a, a(at.a_begin));
   if (at.b_begin < at.b_end) change.new_tool = tool_of(runs_.b, b(at.b_begin));
   places_.push_back(at);
@@ -141,6 +149,11 @@ void ChangeList::follow_shift(const ActionRanges& at, const Vec3& shift) {
   if (b_end > at.b_begin) shift_->actions.b_end = b_end;
 }
 
+/// The line that has set a frame; none for the one in force at the start.
+static std::optional<std::size_t> line_of(const RecordedRun& run, std::uint32_t frame) {
+  return frame == 0 ? std::nullopt : std::optional(run.frames[frame].line);
+}
+
 void ChangeList::close_shift() {
   if (!shift_) return;
   const OpenShift open = *std::exchange(shift_, std::nullopt);
@@ -152,8 +165,8 @@ void ChangeList::close_shift() {
   change.distance = open.shift.norm();
   change.shift = open.shift;
   if (!is_frame) return;
-  change.old_cause = old_frame.line;
-  change.new_cause = new_frame.line;
+  change.old_cause = line_of(runs_.a, a(open.actions.a_begin).frame);
+  change.new_cause = line_of(runs_.b, b(open.actions.b_begin).frame);
 }
 
 void ChangeList::compare_feeds(std::size_t i, std::size_t k) {
@@ -278,8 +291,8 @@ void ChangeList::name_turned_frames() {
     if (is_new) {
       change.kind = ChangeKind::Frame;
       change.shift.reset();
-      change.old_cause = old_frame.line;
-      change.new_cause = new_frame.line;
+      change.old_cause = line_of(runs_.a, a(at.a_begin).frame);
+      change.new_cause = line_of(runs_.b, b(at.b_begin).frame);
       continue;
     }
     is_joined[i] = true;

@@ -53,6 +53,7 @@ BehaviorChange mirrored(BehaviorChange change) {
   change.later = -change.later;
   std::swap(change.old_tool, change.new_tool);
   std::swap(change.old_cause, change.new_cause);
+  change.seconds *= -1;
   if (change.kind == ChangeKind::Added || change.kind == ChangeKind::Removed)
     change.kind = change.kind == ChangeKind::Added ? ChangeKind::Removed : ChangeKind::Added;
   return change;

@@ -49,9 +49,11 @@ struct BehaviorChange {
   /// the same path the other way around. None where only B and C differ, or where that was not computed. Of what the
   /// machine does elsewhere on the same path: the length of `later`.
   std::optional<double> distance;
+  double end_distance = 0;              ///< Moved: by how much a motion ends elsewhere at most, mm.
   double turned = 0;                    ///< Moved: by how much B or C end elsewhere at most, degrees.
   std::optional<geometry::Vec3> shift;  ///< From old to new, mm, if all is moved by the same.
-  double later = 0;  ///< Function, Dwell, Speed, Tool: how much farther on the way the new program does the same, mm.
+  double later = 0;    ///< Function, Dwell, Speed, Tool: how much farther on the way the new program does the same, mm.
+  double seconds = 0;  ///< How much longer the new program takes for its part, until it does what follows.
   std::string old_value;  ///< As programs write it: `F4000`, `S12000 M03`; empty for nothing.
   std::string new_value;
   std::size_t old_motions = 0;

@@ -25,6 +25,7 @@ constexpr Text kMoved{"moved", "spostato"};
 constexpr Text kMovedBy{"moved by {}", "spostato di {}"};
 constexpr Text kMovedUpTo{"moved by up to {} mm", "spostato fino a {} mm"};
 constexpr Text kTurned{"B or C turned by up to {} degrees", "B o C girati fino a {} gradi"};
+constexpr Text kTurnedByOne{"B or C turned by up to 1 degree", "B o C girati fino a 1 grado"};
 constexpr Text kShape{"another path, up to {} mm away", "un altro percorso, fino a {} mm di distanza"};
 constexpr Text kOtherTurn{"the same path with B or C turned otherwise",
                           "lo stesso percorso con B o C girati diversamente"};
@@ -49,6 +50,12 @@ constexpr Text kFrameTurned{"moved by up to {} mm: the frame of line {} is turne
                             "spostato fino a {} mm: il sistema di riferimento della riga {} è girato"};
 constexpr Text kFrameTurnedFar{"moved: the frame of line {} is turned",
                                "spostato: il sistema di riferimento della riga {} è girato"};
+constexpr Text kFrameGone{"moved by {}: the frame of old line {} is missing",
+                          "spostato di {}: manca il sistema di riferimento della riga {} di prima"};
+constexpr Text kFrameGoneTurned{"moved by up to {} mm: the frame of old line {}, which is turned, is missing",
+                                "spostato fino a {} mm: manca il sistema di riferimento girato della riga {} di prima"};
+constexpr Text kFrameGoneTurnedFar{"moved: the frame of old line {}, which is turned, is missing",
+                                   "spostato: manca il sistema di riferimento girato della riga {} di prima"};
 constexpr Text kDwell{"dwell of {} instead of {}", "attesa di {} invece di {}"};
 constexpr Text kDwellAdded{"dwell of {} added", "aggiunta un'attesa di {}"};
 constexpr Text kDwellRemoved{"dwell of {} removed", "tolta un'attesa di {}"};
@@ -123,10 +130,12 @@ std::string moved_in_words(const BehaviorChange& change, Language language) {
   if (change.shift) {
     text = dialect::format(kMovedBy, language, shown_shift(*change.shift));
   } else if (change.distance) {
-    text = dialect::format(kMovedUpTo, language, shown_distance(*change.distance));
+    text = dialect::format(kMovedUpTo, language, shown_distance(std::max(*change.distance, change.end_distance)));
   }
   if (change.turned == 0) return text.empty() ? std::string(kMoved.in(language)) : text;
-  return text + (text.empty() ? "" : ", ") + dialect::format(kTurned, language, trimmed(change.turned));
+  const std::string degrees = trimmed(change.turned);
+  return text + (text.empty() ? "" : ", ") +
+         (degrees == "1" ? std::string(kTurnedByOne.in(language)) : dialect::format(kTurned, language, degrees));
 }
 
 std::string shape_in_words(const BehaviorChange& change, Language language) {
@@ -177,11 +186,15 @@ std::string path_in_words(const BehaviorChange& change, Language language) {
 
 std::string frame_in_words(const BehaviorChange& change, Language language) {
   if (!change.shift) {
-    const std::size_t line = change.new_cause.value_or(0) + 1;
+    const std::size_t line = change.new_cause.value_or(change.old_cause.value_or(0)) + 1;
+    if (!change.new_cause)
+      return change.distance ? dialect::format(kFrameGoneTurned, language, shown_distance(*change.distance), line)
+                             : dialect::format(kFrameGoneTurnedFar, language, line);
     return change.distance ? dialect::format(kFrameTurned, language, shown_distance(*change.distance), line)
                            : dialect::format(kFrameTurnedFar, language, line);
   }
   const std::string shift = shown_shift(*change.shift);
+  if (change.old_cause && !change.new_cause) return dialect::format(kFrameGone, language, shift, *change.old_cause + 1);
   return change.new_cause ? dialect::format(kFrameOf, language, shift, *change.new_cause + 1)
                           : dialect::format(kFrame, language, shift);
 }
@@ -325,6 +338,7 @@ OrderedJson changes_json(const ComparedRuns& runs, Language language) {
     const std::optional<execution::ToolCode> tool = change.tool();
     each["tool"] = tool ? OrderedJson(running::tool_name(*tool)) : OrderedJson(nullptr);
     each["distance"] = change.distance ? OrderedJson(*change.distance) : OrderedJson(nullptr);
+    each["seconds"] = std::round(change.seconds * 1000) / 1000 + 0.0;  // No -0.
     each["text"] = in_words(change, language);
     changes.push_back(std::move(each));
   }

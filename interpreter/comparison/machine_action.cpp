@@ -24,6 +24,7 @@ class ActionRecorder {
   /// `made` is the motion of the event; null if it has none.
   void take(const simulation::TimedEvent& timed, kinematics::MadeMove* made) {
     line_ = timed.event.line;
+    start_ = timed.start;
     made_ = made;
     std::visit([&](const auto& what) { add(what, timed); }, timed.event.what);
     const double seconds = timed.duration + timed.wait;
@@ -32,6 +33,7 @@ class ActionRecorder {
     const simulation::Timing::SpindleMotion turned = simulation::spindle_after(timed.event, spindle_, spindle_speed_);
     if (turned == spindle_) return;
     spindle_ = turned;
+    waiting_speed_ = turned.speed;
     // A tool change stops the spindle by itself.
     if (std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
     MachineAction& action = append(ActionKind::Spindle);
@@ -41,6 +43,7 @@ class ActionRecorder {
 
   RecordedRun finish(const running::RunResult& result) {
     line_ = result.line;
+    start_ = run_.seconds;
     MachineAction& end = append(ActionKind::End);
     const bool is_error = result.ending == running::Ending::Error;
     end.number = is_error ? 1 + static_cast<std::uint32_t>(result.error.id) : 0;
@@ -52,6 +55,7 @@ class ActionRecorder {
     MachineAction& action = run_.actions.emplace_back();
     action.kind = kind;
     action.line = static_cast<std::uint32_t>(line_);
+    action.start = start_;
     action.tool = tool_;
     action.frame = static_cast<std::uint32_t>(run_.frames.size() - 1);
     return action;
@@ -62,6 +66,7 @@ class ActionRecorder {
     const double turn = std::hypot(move.to.b - move.from.b, move.to.c - move.from.c);
     const bool goes = move.is_arc ? move.sweep_deg != 0 : turn + (move.to.tip - move.from.tip).norm() > kNoMotion;
     if (goes) {
+      note_waiting_speed();
       add_motion(event, move, turn);
       if (event.kind == execution::MoveKind::Rapid) add_travel(run_.rapid_mm);
       if (event.kind != execution::MoveKind::Rapid) add_travel(run_.feed_mm);
@@ -94,6 +99,14 @@ class ActionRecorder {
     const auto radius = machine_.tool_radii.find(run_.tools[tool_].code);
     action.is_compensated = radius != machine_.tool_radii.end() && radius->second > 0;
   }
+  /// An S that waits for the next M03 or M04 while the machine moves: the custom software may read it before (I.4.2).
+  void note_waiting_speed() {
+    if (spindle_.function == 5 || spindle_speed_ == waiting_speed_) return;
+    waiting_speed_ = spindle_speed_;
+    MachineAction& action = append(ActionKind::Spindle);
+    action.line = static_cast<std::uint32_t>(speed_line_);
+    action.value = spindle_speed_;
+  }
   void add_travel(double& length) {
     const kinematics::TipTravel& travel = made_->tip_travel();
     length += travel.length;
@@ -105,7 +118,10 @@ class ActionRecorder {
   void add(const running::DwellEvent& dwell, const simulation::TimedEvent&) {
     if (dwell.seconds > 0) append(ActionKind::Dwell).value = dwell.seconds;
   }
-  void add(const running::SpindleSpeedEvent& given, const simulation::TimedEvent&) { spindle_speed_ = given.speed; }
+  void add(const running::SpindleSpeedEvent& given, const simulation::TimedEvent&) {
+    spindle_speed_ = given.speed;
+    speed_line_ = line_;
+  }
   void add(const running::FunctionEvent& function, const simulation::TimedEvent&) {
     if (!dialect::is_user_function(function.number)) return;  // The spindle's, which counts when it turns otherwise.
     append(ActionKind::Function).number = static_cast<std::uint32_t>(run_.functions.size());
@@ -133,10 +149,13 @@ class ActionRecorder {
   const simulation::TimedMachine& machine_;
   RecordedRun run_;
   std::size_t line_ = 0;
+  double start_ = 0;  ///< Of the event, seconds.
   kinematics::MadeMove* made_ = nullptr;
   std::uint32_t tool_ = MachineAction::kNone;
   simulation::Timing::SpindleMotion spindle_;
-  double spindle_speed_ = 0;
+  double spindle_speed_ = 0;    ///< The last S.
+  std::size_t speed_line_ = 0;  ///< Its line.
+  double waiting_speed_ = 0;    ///< The last S that counts: of the spindle as it turns, or one that waits.
 };
 
 }  // namespace

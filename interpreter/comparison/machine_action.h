@@ -37,9 +37,11 @@ struct MachineAction {
   std::uint32_t tool = kNone;   ///< Index of the mounted tool in RecordedRun::tools; for Tool, of the new one.
   std::uint32_t arc = kNone;    ///< Index in RecordedRun::arcs.
   std::uint32_t frame = 0;      ///< Index in RecordedRun::frames of the frame in force.
-  /// Function: index in RecordedRun::functions. Spindle: 3, 4 or 5. Signal: its G. End: Ending, and the error's id.
+  /// Function: index in RecordedRun::functions. Spindle: 3, 4 or 5; 0 for an S that
+  /// waits for the next M03 or M04. Signal: its G. End: Ending, and the error's id.
   std::uint32_t number = 0;
   double value = 0;     ///< Motion: F as programmed. Dwell: seconds. Spindle: revolutions per minute.
+  double start = 0;     ///< Seconds since the start of the run; End: the cycle time.
   double feed = 0;      ///< Motion: feed as a speed, mm/min or degrees/min; 0 for rapids.
   geometry::Pose from;  ///< Motion: tip in the machine frame.
   geometry::Pose to;

@@ -122,7 +122,7 @@ class MotionNamer {
     const std::size_t only_b = group.count(MotionStep::Kind::OnlyInB);
     const Vec3& shift = group.steps.front().shift;
     for (const MotionStep& step : group.steps) {
-      if (step.kind != MotionStep::Kind::Pair) continue;
+      if (step.kind != MotionStep::Kind::Pair || has_its_rapid_elsewhere(group, step)) continue;
       const auto [i, k] = group.pair(step);
       if (!a(i).is_inverse_time) compare_feeds(group.block, step.motions.a_begin, step.motions.b_begin);
       changes_.compare_sides(i, k);
@@ -152,6 +152,22 @@ class MotionNamer {
     return false;
   }
 
+  /// Whether one run has a rapid where the other one has a feed move, which has the same rapid, as a way, beside it: it
+  /// has a motion more or less.
+  bool has_its_rapid_elsewhere(const StepGroup& group, const MotionStep& step) const {
+    const auto [i, k] = group.pair(step);
+    if (a(i).is_rapid == b(k).is_rapid || group.count(MotionStep::Kind::Pair) == group.steps.size()) return false;
+    const ActionRanges all = group.all();
+    const Vec3 way = a(i).is_rapid ? a(i).to.tip - a(i).from.tip : b(k).to.tip - b(k).from.tip;
+    const auto has_rapid = [&](const RecordedRun& run, std::size_t begin, std::size_t end) {
+      const std::span actions = std::span(run.actions).subspan(begin, end - begin);
+      return std::any_of(actions.begin(), actions.end(), [&](const MachineAction& each) {
+        return each.is_motion() && each.is_rapid && (each.to.tip - each.from.tip - way).norm() <= options_.tolerance;
+      });
+    };
+    return a(i).is_rapid ? has_rapid(runs_.b, all.b_begin, all.b_end) : has_rapid(runs_.a, all.a_begin, all.a_end);
+  }
+
   /// Takes as many lines of both as pairs in their order.
   void pair_all(StepGroup& group) const {
     const std::size_t only_a = group.count(MotionStep::Kind::OnlyInA);
@@ -176,6 +192,7 @@ class MotionNamer {
     BehaviorChange& change = changes_.add(ChangeKind::Moved, group.all());
     for (const MotionStep& step : group.steps) {
       const auto [i, k] = group.pair(step);
+      change.end_distance = std::max(change.end_distance, (b(k).to.tip - a(i).to.tip).norm());
       change.turned = std::max({change.turned, std::abs(a(i).to.b - b(k).to.b), std::abs(a(i).to.c - b(k).to.c)});
     }
     if (change.turned <= options_.tolerance) change.turned = 0;

@@ -67,16 +67,20 @@ class LineJoiner {
     return std::any_of(ends.begin(), ends.end(), [](const MotionEnd& end) { return end.is_joint; });
   }
 
-  /// Whether a place lies on the line between two others.
+  /// Whether a place lies on the line between two others; while the tip rests, B and C are the line.
   bool is_between(const geometry::Pose& from, const geometry::Pose& place, const geometry::Pose& to) const {
     const Vec3 along = to.tip - from.tip;
-    const double square = along.squaredNorm();
+    const double b_along = to.b - from.b;
+    const double c_along = to.c - from.c;
+    const bool rests = along.norm() <= runs_.tolerance / 2;
+    const double square = rests ? b_along * b_along + c_along * c_along : along.squaredNorm();
     if (!(square > 0)) return false;
-    const double part = along.dot(place.tip - from.tip) / square;
+    const double part = rests ? (b_along * (place.b - from.b) + c_along * (place.c - from.c)) / square
+                              : along.dot(place.tip - from.tip) / square;
     const double allowed = runs_.tolerance / 2;
     return part > 0 && part < 1 && (place.tip - from.tip - part * along).norm() <= allowed &&
-           std::abs(place.b - from.b - part * (to.b - from.b)) <= allowed &&
-           std::abs(place.c - from.c - part * (to.c - from.c)) <= allowed;
+           std::abs(place.b - from.b - part * b_along) <= allowed &&
+           std::abs(place.c - from.c - part * c_along) <= allowed;
   }
 
   void find_joints(const RecordedRun& run, const std::vector<std::size_t>& actions, MotionEnds& ends) const {

@@ -168,8 +168,11 @@ class PartNamer {
         jumps_between(decisions(runs_.a, inner.a_begin, inner.a_end), decisions(runs_.b, inner.b_begin, inner.b_end));
     return std::any_of(jumps.begin(), jumps.end(), [&](const PathFork& jump) {
       const std::optional<ActionRanges> at = skipped(jump, part);
-      if (at) name_path(part, jump, *at);
-      return at.has_value();
+      // Of what is no motion, its own words say more.
+      const bool has_motion =
+          at && motion_count(runs_.a, at->a_begin, at->a_end) + motion_count(runs_.b, at->b_begin, at->b_end) > 0;
+      if (has_motion) name_path(part, jump, *at);
+      return has_motion;
     });
   }
 

@@ -90,8 +90,12 @@ TEST_F(IsodiffCommand, ListsChangesByTool) {
 TEST_F(IsodiffCommand, WritesJson) {
   const CommandResult result = diff({"--format", "json", "old.iso", "new.iso"});
   EXPECT_EQ(result.status, 1);
-  const json both = json::parse(result.out);
+  json both = json::parse(result.out);
   EXPECT_EQ(both.at("same"), false);
+  const auto time = [&](const char* run) { return both.at(run).at("time").get<double>(); };
+  EXPECT_EQ(both["changes"][0]["seconds"], 0.0);
+  EXPECT_NEAR(both["changes"][1]["seconds"].get<double>(), time("new") - time("old"), 0.001);
+  for (json& change : both["changes"]) change.erase("seconds");
   EXPECT_NEAR(both.at("old").at("time").get<double>(),
               json::parse(run_command({"isorun", "--json", folder_.path("old.iso")}).out).at("seconds"), 1e-9);
   EXPECT_EQ(both.at("changes"), json::parse(R"([
@@ -159,7 +163,7 @@ TEST_F(IsodiffCommand, ItsJsonFitsItsSchema) {
   folder_.write("branches.iso", branches(12));
   folder_.write("register.iso", "M06 T101001\nIF V3 = 1 GOTO N5\nG00 X10\nN5 G00 X20 Y5\nM02\n");
   json documents;
-  for (const char* const other : {"old.iso", "new.iso", "error.iso", "added.iso"}) {
+  for (const char* const other : {"old.iso", "new.iso", "error.iso", "added.iso", "register.iso"}) {
     json both = json::parse(diff({"--format", "json", "old.iso", other}).out);
     documents.push_back({{"document", both}, {"valid", true}});
     both["changes"].push_back({{"kind", "other"}});
@@ -180,7 +184,7 @@ TEST_F(IsodiffCommand, ItsJsonFitsItsSchema) {
   const std::string log = folder_.path("log");
   const std::string command = "python3 " ISOCNC_SOURCE_DIR "/tests/support/validate.py " + task + " >" + log + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(text_of_file(log), "14 documents\n");
+  EXPECT_EQ(text_of_file(log), "16 documents\n");
 }
 
 /// Each way to write the examples makes the machine do the same.
@@ -361,6 +365,61 @@ TEST_F(IsodiffCommand, ComparesOnAllPaths) {
   EXPECT_EQ(both.at("paths")[0].at("same"), true);
   EXPECT_EQ(both.at("paths")[1].at("values"), "VGPL <> 1");
   EXPECT_EQ(both.at("notCompared"), nullptr);
+}
+
+/// An S alone waits for the next M03 or M04, and the custom software may read it before.
+TEST_F(IsodiffCommand, NamesASpeedThatWaits) {
+  const std::string base = "M06 T101001\nS9000 M03\nG01 X10 F1000\nS8000\nX20\nM05\nM02\n";
+  folder_.write("a.iso", base);
+  folder_.write("b.iso", std::string(base).replace(base.find("S8000"), 5, "S7000"));
+  folder_.write("c.iso", std::string(base).replace(base.find("S8000\n"), 6, ""));
+  EXPECT_EQ(diff({"a.iso", "b.iso"}).out, "T101001\n  line 4: S7000 instead of S8000\n1 difference\n");
+  EXPECT_EQ(diff({"--ignore", "speed", "a.iso", "b.iso"}).status, 0);
+  EXPECT_THAT(diff({"a.iso", "c.iso"}).out, HasSubstr("removed: S8000\n1 difference\n"));
+  // Set before it is used, and used at once, is the same.
+  folder_.write("d.iso", "M06 T101001\nS9000\nM03\nG01 X10 F1000\nM05\nM02\n");
+  folder_.write("e.iso", "M06 T101001\nS9000 M03\nG01 X10 F1000\nS9000\nM05\nM02\n");
+  EXPECT_EQ(diff({"d.iso", "e.iso"}).status, 0);
+}
+
+TEST_F(IsodiffCommand, FindingsQuoteTheirOwnLines) {
+  folder_.write("isocnc.json", R"({"machine": {"maxSpindleSpeed": 18000}})");
+  const std::string base = "M06 T101001\nS19000 M03\nG00 X10\nS20000 M03\nG00 X20\nS24000 M03\nG00 X30\nM02\n";
+  folder_.write("a.iso", base);
+  folder_.write("b.iso", std::string(base).replace(base.find("S24000"), 6, "S17000"));
+  folder_.write("c.iso",
+                std::string(base).replace(base.find("S19000"), 6, "S19500").replace(base.find("S24000"), 6, "S25000"));
+  EXPECT_THAT(diff({"a.iso", "b.iso"}).out,
+              HasSubstr("gone: old line 6: warning[W133]: S24000 is more than the machine's 18000 rev/min\n"));
+  const std::string changed = diff({"a.iso", "c.iso"}).out;
+  EXPECT_THAT(changed, HasSubstr("changed: line 2: warning[W133]: S19500 is more than the machine's 18000 rev/min\n"
+                                 "    was: S19000 is more than the machine's 18000 rev/min\n"));
+  EXPECT_THAT(changed, HasSubstr("changed: line 6: warning[W133]: S25000 is more"));
+  EXPECT_THAT(changed, testing::Not(HasSubstr("line 4")));
+}
+
+/// The same depth in millimeters and in inches is the same.
+TEST_F(IsodiffCommand, FindingsHaveNoUnit) {
+  folder_.write("isocnc.json", R"({
+    "machine": {"kinematics": {"type": "head", "pivot": 180}, "home": {"z": 100}, "axes": {"X": {"min": -10, "max": 300}},
+      "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 80, "radius": 5, "shape": "flat", "cutLength": 30}]},
+    "setups": [{"paths": ["*.iso"], "fixtures": [{"name": "clamp", "box": [[50, -20, -5], [70, 20, 13]]}]}]})");
+  folder_.write("mm.iso", "M06 T101001\nG71\nG00 X0 Y0 Z10\nG01 X254 F2540\nG01 X254 Y25.4\nX508\nM02\n");
+  folder_.write("inch.iso", "M06 T101001\nG70\nG00 X0 Y0 Z0.3937007874\nG01 X10 F100\nG01 X10 Y1\nX20\nM02\n");
+  const CommandResult result = diff({"--verify", "mm.iso", "inch.iso"});
+  EXPECT_EQ(result.out, "no difference\n");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(IsodiffCommand, SaysAsDataWhatItHasNotCompared) {
+  folder_.write("a.iso", "M06 T101001\nIF VGPL = 1 GOTO N5\nG00 X10\nN5 G00 X20 Y5\nM02\n");
+  const auto others = [&](const std::string& old_program, const std::string& new_program) {
+    const json compared = json::parse(diff({"--format", "json", old_program, new_program}).out);
+    return compared.value("otherPaths", json());
+  };
+  EXPECT_EQ(others("a.iso", "a.iso"), json::parse(R"([{"revision": "new", "name": "VGPL", "line": 2}])"));
+  EXPECT_EQ(others("a.iso", "old.iso"), json::parse(R"([{"revision": "old", "name": "VGPL", "line": 2}])"));
+  EXPECT_EQ(others("old.iso", "new.iso"), json());
 }
 
 /// What has not been compared may differ.

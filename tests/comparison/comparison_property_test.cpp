@@ -28,6 +28,7 @@ std::vector<BehaviorChange> swapped(std::vector<BehaviorChange> changes) {
     std::swap(change.old_cause, change.new_cause);
     if (change.shift) *change.shift *= -1;
     change.later *= -1;
+    change.seconds *= -1;
     if (change.kind == ChangeKind::Added) {
       change.kind = ChangeKind::Removed;
     } else if (change.kind == ChangeKind::Removed) {

@@ -7,13 +7,13 @@ const { lensesOf, summary } = await module('behavior/comparison');
 
 const texts = { same: 'same', sameUpToError: 'same up to {0} on {1}', one: 'one', many: '{0} differences', time: 'time {0} s' };
 const lines = (first, end) => ({ start: { line: first, character: 0 }, end: { line: end, character: 0 } });
-const change = (first, end, more = {}) => ({ kind: 'moved', tool: 'T102003', text: 'moved by Z-0.2', oldRange: lines(0, 1), newRange: lines(first, end), ...more });
+const change = (first, end, more = {}) => ({ kind: 'moved', tool: 'T102003', seconds: 0, text: 'moved by Z-0.2', oldRange: lines(0, 1), newRange: lines(first, end), ...more });
 const comparison = (changes, more = {}) => ({ same: changes.length === 0, old: { time: 10, error: null }, new: { time: 10, error: null }, changes, ...more });
 
 test('each change has a lens above its first line, and the summary is after that of the first one', () => {
-  const made = lensesOf(comparison([change(4, 7), change(9, 9, { tool: null, text: 'removed: M100' })], { new: { time: 13.14, error: null } }), texts, 12);
+  const made = lensesOf(comparison([change(4, 7, { seconds: 3.14 }), change(9, 9, { tool: null, text: 'removed: M100' })], { new: { time: 13.14, error: null } }), texts, 12);
   assert.deepEqual(made, [
-    { line: 4, title: 'T102003: moved by Z-0.2' },
+    { line: 4, title: 'T102003: moved by Z-0.2, time +3.1 s' },
     { line: 9, title: 'removed: M100' },
     { line: 4, title: '2 differences, time +3.1 s' },
   ]);

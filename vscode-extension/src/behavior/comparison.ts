@@ -10,6 +10,8 @@ export interface Change {
   kind: string;
   /** T101001; null before the first tool. */
   tool: string | null;
+  /** How much longer the new program takes for it. */
+  seconds: number;
   /** As isodiff writes it. */
   text: string;
   /** Whole lines; empty where the program has no part in the change. */
@@ -49,9 +51,13 @@ const filled = (text: string, ...values: (string | number)[]) => text.replace(/\
 export function summary({ changes, old, new: now }: Comparison, texts: Summaries): string {
   if (changes.length === 0) return now.error ? filled(texts.sameUpToError, now.error.code, now.error.line + 1) : texts.same;
   const count = changes.length === 1 ? texts.one : filled(texts.many, changes.length);
-  const seconds = (now.time - old.time).toFixed(1);
-  if (Number(seconds) === 0) return count;
-  return `${count}, ${filled(texts.time, Number(seconds) > 0 ? `+${seconds}` : seconds)}`;
+  return count + timeText(now.time - old.time, texts);
+}
+
+/** `, +3.1 s`; nothing for what rounds to no time. */
+function timeText(difference: number, texts: Summaries): string {
+  const seconds = difference.toFixed(1);
+  return Number(seconds) === 0 ? '' : `, ${filled(texts.time, Number(seconds) > 0 ? `+${seconds}` : seconds)}`;
 }
 
 /** `T102003: moved by Z-0.2` */
@@ -62,10 +68,10 @@ export interface Lens {
   title: string;
 }
 
-/** A lens above the first line of each change in the new program. The one that sums them up comes after that of the first of them, where a diff opens. */
+/** A lens above the first line of each change in the new program: `T102003: moved by Z-0.2, +3.1 s`. The one that sums them up comes after that of the first of them, where a diff opens. */
 export function lensesOf(comparison: Comparison, texts: Summaries, lineCount: number): Lens[] {
   const at = (line: number) => Math.min(line, Math.max(0, lineCount - 1));
-  const changes = comparison.changes.map((change) => ({ line: at(change.newRange.start.line), title: changeText(change) }));
+  const changes = comparison.changes.map((change) => ({ line: at(change.newRange.start.line), title: changeText(change) + timeText(change.seconds, texts) }));
   const first = changes.reduce((least, { line }) => Math.min(least, line), changes[0]?.line ?? 0);
   return [...changes, { line: first, title: summary(comparison, texts) }];
 }
