@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -205,6 +206,8 @@ bool write_result(const DiffCommandOptions& options, const std::function<void(sy
   write(*output);
   const std::optional<std::string> problem =
       system::commit(*output, options.has_output_file() ? options.output : "<stdout>", options.reader_language());
+  // Who leaves the pager of git wants no more; git would call another exit status the death of its diff.
+  if (options.git_arguments && output->error() == EPIPE) return true;
   if (problem) complain(*problem);
   return !problem;
 }

@@ -207,6 +207,11 @@ TEST_F(GitShows, AsMarkdown) {
   EXPECT_THAT(shown, EndsWith("\n1 difference\n```\n"));
 }
 
+/// Who leaves the pager early wants no more, and no message.
+TEST_F(GitShows, NothingToNobody) {
+  EXPECT_EQ(shown_by("{ sleep 0.2; git diff HEAD; } 2>complaints | :; cat complaints"), "");
+}
+
 TEST_F(IsodiffWithGit, ShowsConflictsOfAMerge) {
   repository_.write("a b.iso", program(100, 80));
   commit();
