@@ -62,6 +62,8 @@ export interface Change {
   tool: string | null;
   /** In mm. */
   distance: number | null;
+  /** How much longer the new program takes for it. */
+  seconds: number;
   text: string;
 }
 
@@ -71,6 +73,8 @@ export interface Comparison {
   old: { time: number };
   new: { time: number };
   changes: Change[];
+  /** Jumps, lines from 1, at which other values of VGPL or of a register lead along paths that are not compared. */
+  otherPaths?: { revision: 'old' | 'new'; name: string; line: number }[];
 }
 
 /** What a command says instead of a result: a mistake in the options or the configuration, or a text that is no program. */
