@@ -76,7 +76,8 @@ TEST(FindingChanges, AreMirroredWhereTheProgramsAreSwapped) {
 
 /// A comment hides a finding, and the machine does the same.
 TEST(FindingChanges, OfAloneMakeNoDifference) {
-  const RevisionComparison hidden = compared(kProgram, with("F9000", "F9000 ;isolint: ignore W131"));
+  const std::string silenced = with("F9000", "F9000 ;isolint: ignore W131");
+  const RevisionComparison hidden = compared(kProgram, silenced);
   EXPECT_EQ(shown_findings(hidden), "gone W131 6|-\n");
   EXPECT_TRUE(hidden.is_same());
   EXPECT_EQ(text_of(hidden, {}),
