@@ -177,6 +177,7 @@ TEST(ClosedForm, DepthOfAPassAlongASlope) {
     for (const double degrees : {-60.0, 20.0, 50.0})
       for (const double travel_x : {40.0, 3.0})
         for (const double climb : {-0.7, 0.0, 0.7}) {
+          if (!support::kTriesAll && degrees != 50) continue;
           Stock stock(box({-60, -40, -40}, {60, 40, 0}), 0.4);
           const Vec3 axis = tilted(degrees);
           const Vec3 from(-travel_x / 2, -5, -9 - climb * travel_x / 2);
