@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <span>
-#include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -13,6 +11,7 @@
 #include "interpreter/comparison/comparison.h"
 #include "interpreter/dialect/codes.h"
 #include "interpreter/syntax/line_finder.h"
+#include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::revisions {
 
@@ -57,16 +56,15 @@ bool has_same_measure(const syntax::Finding& one, const syntax::Finding& other) 
   return true;
 }
 
-/// The S or F that a finding is about, in its unit; none of others, and where the program computes it.
-std::optional<double> quoted_number(const check::LocatedFinding& located, std::string_view line) {
-  const syntax::Finding& finding = located.finding;
-  if (finding.id != "spindle-speed-above-machine"_diag && finding.id != "feed-above-machine"_diag) return std::nullopt;
-  const std::string_view word = line.substr(std::min<std::size_t>(finding.span.begin + 1, line.size()),
-                                            finding.span.end - std::min(finding.span.end, finding.span.begin + 1));
-  const std::string number(word.substr(std::min(word.find_first_not_of(' '), word.size())));
-  char* end = nullptr;
-  const double value = std::strtod(number.c_str(), &end);
-  return end == number.c_str() ? std::nullopt : std::optional(value);
+/// The S or F that a finding is about, in its unit; none of others, and of a line without one.
+std::optional<double> quoted_number(const check::LocatedFinding& located, std::string_view text) {
+  const bool is_of_speed = located.finding.id == "spindle-speed-above-machine"_diag;
+  if (!is_of_speed && located.finding.id != "feed-above-machine"_diag) return std::nullopt;
+  const syntax::ParsedLine line(text);
+  const std::int32_t word = is_of_speed ? line.tree().spindle : line.tree().feed;
+  if (word < 0) return std::nullopt;
+  const syntax::Word& number = line.tree().words[static_cast<std::size_t>(word)];
+  return number.known() ? std::optional(number.value) : std::nullopt;
 }
 
 /// Whether two of these are the same, be it in millimeters and inches.
