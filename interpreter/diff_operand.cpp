@@ -1,8 +1,5 @@
 #include "interpreter/diff_operand.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include "interpreter/configuration/configuration.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/git/revision.h"
@@ -42,17 +39,11 @@ static DiffOperand diff_operand(const git::DiffedVersion& version) {
   return operand;
 }
 
-static bool is_program_by_name(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto& known = configuration::kProgramExtensions;
-  return std::find(known.begin(), known.end(), extension) != known.end();
-}
-
-std::variant<DiffOperands, std::string> diff_operands(const git::ExternalDiff& diff, Language language) {
+std::variant<DiffOperands, std::string> diff_operands(const git::ExternalDiff& diff,
+                                                      std::span<const std::string> extensions, Language language) {
   const git::DiffedVersion& named = diff.new_version;
-  if (git::is_for_all_files() && !is_program_by_name(named.path)) return std::string(kIsNoProgram.in(language));
+  if (git::is_for_all_files() && !configuration::is_program_name(named.path, extensions))
+    return std::string(kIsNoProgram.in(language));
   if (diff.is_unmerged) return dialect::format(kIsConflict, language, named.path);
   if (!diff.old_version.is_file() || !diff.new_version.is_file()) return std::string(kIsNoFile.in(language));
   return DiffOperands{diff_operand(diff.old_version), diff_operand(diff.new_version)};

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 
@@ -28,8 +29,10 @@ using DiffOperands = std::array<DiffOperand, 2>;  ///< The old one and the new o
 std::variant<DiffOperand, std::string> diff_operand(const std::string& word, dialect::Language language);
 
 /// The programs that git wants to be compared; one that does not exist does nothing. None where there are no programs,
-/// with the reason for a user.
-std::variant<DiffOperands, std::string> diff_operands(const git::ExternalDiff& diff, dialect::Language language);
+/// with the reason for a user: among all files of a repository these have one of the `extensions`, with their dot.
+std::variant<DiffOperands, std::string> diff_operands(const git::ExternalDiff& diff,
+                                                      std::span<const std::string> extensions,
+                                                      dialect::Language language);
 
 /// Reads the text.
 std::variant<system::SourceFile, system::SourceFile::Problem> open(const DiffOperand& operand,

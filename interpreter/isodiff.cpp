@@ -429,7 +429,8 @@ ExitStatus compare_for_git(const DiffCommandOptions& options) {
     complain((diff ? kGitFormat : kGitArguments).in(language));
     return ExitStatus::Failure;
   }
-  const auto operands = diff_operands(*diff, language);
+  configuration::Configurations found(options.source, language);
+  const auto operands = diff_operands(*diff, found.of(diff->new_version.path).lint.extensions, language);
   if (const auto* const both = std::get_if<DiffOperands>(&operands)) return compare_files(options, *both, diff);
   const std::string heading = diff->heading(language);
   return write_for_git(options, heading, shown_obstacle(heading, std::get<std::string>(operands), options));

@@ -10,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include "analyzer/input/gitignore.h"
-#include "interpreter/dialect/any_case.h"
 #include "interpreter/system/system_texts.h"
 
 namespace isocnc::input {
@@ -38,10 +37,6 @@ static fs::path as_prefix(std::string directory) {
   if (fs::path(directory).lexically_normal() == ".") return {};
   while (directory.size() > 1 && directory.ends_with('/')) directory.pop_back();
   return directory;
-}
-
-static bool has_extension(std::string_view name, std::string_view extension) {
-  return name.size() > extension.size() && dialect::ends_with(name, extension);
 }
 
 static std::string problem(const fs::path& path, const std::error_code& error, dialect::Language language) {
@@ -105,10 +100,7 @@ class Search {
   /// Whether the entry is a regular file with one of the extensions. A pipe is not: reading it would block.
   static bool is_program(const fs::directory_entry& entry, std::span<const std::string> extensions) {
     const std::string name = entry.path().filename().generic_string();
-    if (std::none_of(extensions.begin(), extensions.end(),
-                     [&](const std::string& extension) { return has_extension(name, extension); })) {
-      return false;
-    }
+    if (!configuration::is_program_name(name, extensions)) return false;
     std::error_code error;
     return entry.is_regular_file(error);
   }

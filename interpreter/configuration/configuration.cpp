@@ -2,9 +2,16 @@
 
 #include <algorithm>
 
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/kinematics/numbers.h"
 
 namespace isocnc::configuration {
+
+bool is_program_name(std::string_view name, std::span<const std::string> extensions) {
+  return std::any_of(extensions.begin(), extensions.end(), [&](const std::string& extension) {
+    return name.size() > extension.size() && dialect::ends_with(name, extension);
+  });
+}
 
 std::array<double, execution::kAxisCount> default_rapids() {
   const kinematics::Machine machine = kinematics::default_machine();

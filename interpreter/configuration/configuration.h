@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -158,6 +160,10 @@ struct FileOverrides {
   PathPatterns patterns;  ///< Parsed form of `paths`.
   CodeSelection selection;
 };
+
+/// Whether a file of this name is a program: whether it has one of the extensions, with their dot; case does not
+/// matter.
+bool is_program_name(std::string_view name, std::span<const std::string> extensions);
 
 struct Lint {
   CodeSelection selection;

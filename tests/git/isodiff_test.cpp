@@ -201,6 +201,17 @@ TEST_F(GitShows, AsItsOnlyProgramForDifferences) {
   EXPECT_THAT(shown, HasSubstr("\nnotes.txt\nis no program, by its name\n"));
 }
 
+TEST_F(GitShows, WhatHasTheExtensionsOfTheConfiguration) {
+  repository_.write("isocnc.json", R"({"lint": {"extensions": [".txt"]}})");
+  repository_.write("notes.TXT", program(10, 20));
+  repository_.must("git add -A .");
+  commit();
+  repository_.write("notes.TXT", program(11, 20));
+  const std::string shown =
+      shown_by("git config --unset diff.isocnc.command; GIT_EXTERNAL_DIFF='isodiff --git' git diff HEAD");
+  EXPECT_THAT(shown, StartsWith("notes.TXT\nlines "));
+}
+
 TEST_F(GitShows, AsMarkdown) {
   const std::string shown = shown_by("git -c diff.isocnc.command='isodiff --format markdown --git' diff HEAD");
   EXPECT_THAT(shown, HasSubstr("\n### `p ü/like this.iso -> p ü/größer.iso`\n\n```text\n" + moved_));
