@@ -3,7 +3,6 @@
 #include "interpreter/plot/packed_bytes.h"
 #include "interpreter/plot/page_plot.h"
 #include "interpreter/plot/path_recording.h"
-#include "interpreter/simulation/timed_run.h"
 
 namespace isocnc::overlay {
 
@@ -34,17 +33,12 @@ std::string alignment_bytes(const std::vector<AlignedLines>& lines) {
 /// Runs a program and adds its path to the page, its blocks named with the prefix.
 static void add_path(plot::PageFile& page, std::string_view prefix, const ShownProgram& program) {
   const plot::PlotSubject& subject = program.subject;
-  plot::PathRecording recording(subject, program.machine);
-  plot::Toolpath path(program.machine, subject.home, [&](const plot::ToolpathStep& step) { recording.add(step); });
-  const running::RunResult result = simulation::run_timed(
-      subject.program, program.options, program.machine,
-      {.event = [&](const simulation::TimedEvent& timed) { path.add(timed); },
-       .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) { path.add(stretch); }});
+  const plot::RecordedPath path = plot::record_path(subject.program, subject, program.options, program.machine);
   const std::string start(prefix);
-  page.add_json(start + "facts", recording.facts(path, {result, {}, nullptr}));
-  page.add_bytes(start + "steps", recording.steps());
-  page.add_bytes(start + "points", recording.points());
-  page.add_bytes(start + "turns", recording.turns());
+  page.add_json(start + "facts", path.facts);
+  page.add_bytes(start + "steps", path.steps);
+  page.add_bytes(start + "points", path.points);
+  page.add_bytes(start + "turns", path.turns);
   page.add_bytes(start + "program", subject.program);
 }
 

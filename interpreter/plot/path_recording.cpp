@@ -8,6 +8,7 @@
 #include "interpreter/dialect/locale.h"
 #include "interpreter/plot/scene_facts.h"
 #include "interpreter/running/vector_json.h"
+#include "interpreter/simulation/timed_run.h"
 #include "interpreter/verification/verification_report.h"
 
 namespace isocnc::plot {
@@ -122,6 +123,20 @@ std::string PathRecording::facts(const Toolpath& path, const PlottedRun& run) co
     json["certificate"] = in_both_languages(*run.verified.certificate);
   }
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
+
+RecordedPath record_path(std::string_view program, const PlotSubject& subject, const running::RunOptions& options,
+                         const simulation::TimedMachine& machine) {
+  PathRecording recording(subject, machine);
+  Toolpath path(machine, subject.home, [&](const ToolpathStep& step) { recording.add(step); });
+  const running::RunResult result = simulation::run_timed(
+      program, options, machine,
+      {.event = [&](const simulation::TimedEvent& timed) { path.add(timed); },
+       .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) { path.add(stretch); }});
+  return {.facts = recording.facts(path, {result, {}, nullptr}),
+          .steps = std::string(recording.steps()),
+          .points = std::string(recording.points()),
+          .turns = std::string(recording.turns())};
 }
 
 }  // namespace isocnc::plot

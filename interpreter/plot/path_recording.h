@@ -54,4 +54,16 @@ class PathRecording {
   std::uint64_t points_since_turn_ = 0;
 };
 
+/// The whole recording of one run, without what surrounds the program.
+struct RecordedPath {
+  std::string facts;
+  std::string steps;
+  std::string points;
+  std::string turns;
+};
+
+/// Runs a program for its path. What is recorded ends where `options.stop` ends the run.
+RecordedPath record_path(std::string_view program, const PlotSubject& subject, const running::RunOptions& options,
+                         const simulation::TimedMachine& machine);
+
 }  // namespace isocnc::plot

@@ -14,7 +14,6 @@
 #include "interpreter/overlay/comparison_page.h"
 #include "interpreter/plot/path_recording.h"
 #include "interpreter/plot/plot_tools.h"
-#include "interpreter/simulation/timed_run.h"
 #include "lsp/extensions/extension.h"
 #include "lsp/protocol/uri.h"
 
@@ -72,17 +71,11 @@ struct ComparedText {
 std::string ComparedText::path_json(const plot::PlotSubject& subject, const std::function<bool()>& stop) const {
   running::RunOptions stoppable = options;
   stoppable.stop = stop;
-  plot::PathRecording recording(subject, machine);
-  plot::Toolpath path(machine, subject.home, [&](const plot::ToolpathStep& step) { recording.add(step); });
-  const running::RunResult result = simulation::run_timed(
-      text, stoppable, machine,
-      {.event = [&](const simulation::TimedEvent& timed) { path.add(timed); },
-       .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) { path.add(stretch); }});
+  const plot::RecordedPath path = plot::record_path(text, subject, stoppable, machine);
   throw_if(stop());
   const auto stream = [](std::string_view bytes) { return fmt::format(R"({{"data":"{}"}})", plot::base64(bytes)); };
-  return fmt::format(R"({{"facts":{},"steps":{},"points":{},"turns":{}}})",
-                     recording.facts(path, {result, {}, nullptr}), stream(recording.steps()),
-                     stream(recording.points()), stream(recording.turns()));
+  return fmt::format(R"({{"facts":{},"steps":{},"points":{},"turns":{}}})", path.facts, stream(path.steps),
+                     stream(path.points), stream(path.turns));
 }
 
 /// The data that the background request copies.
