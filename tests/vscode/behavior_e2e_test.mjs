@@ -2,12 +2,12 @@
 // with a file; the debugger's first difference. With ISOCNC_SCREENSHOTS=FOLDER it leaves a picture there, which docs/images/ has.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, test } from 'node:test';
 import { Editor, eventually, root } from './editor.mjs';
 
-const { ISOCNC_VSIX: extension, ISOCNC_CODE_SERVER: codeServer, ISOCNC_SCREENSHOTS: pictures } = process.env;
+const { ISOCNC_VSIX: extension, ISOCNC_CODE_SERVER: codeServer } = process.env;
 const hasDebugger = existsSync(join(root, 'build/vscode-extension/stage/bin/isodap'));
 
 assert.ok(extension && codeServer, 'ISOCNC_VSIX and ISOCNC_CODE_SERVER name the package and the editor: start tests/vscode/run');
@@ -37,20 +37,7 @@ await editor.openWorkbench();
 after(async () => {
   await editor.stop();
 });
-afterEach(async (context) => {
-  if (!context.error && context.passed !== false) return;
-  const folder = join(root, 'build/vscode-extension');
-  await page.screenshot({ path: join(folder, 'failed.png') }).catch(() => {});
-  writeFileSync(join(folder, 'failed.log'), editor.log);
-});
-
-/** A picture of what is there, once it is drawn. */
-async function keep(name) {
-  if (!pictures) return;
-  mkdirSync(pictures, { recursive: true });
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  await page.screenshot({ path: join(pictures, `vscode-${name}.png`) });
-}
+afterEach((context) => editor.showFailure(context));
 
 /** The lenses of the diff in front. */
 const lenses = () => editor.texts('.monaco-diff-editor .editor.modified .codelens-decoration');
@@ -72,7 +59,7 @@ test('the next hunk has its lenses, too', async () => {
   await editor.press('Alt+F5');
   await lensesAre('the change of the feed is not named', (all) => /T102003: moved by Z-0\.2/.test(all) && /T102003: F5000 instead of F4500/.test(all));
   await editor.press('Control+b');
-  await keep('behavior');
+  await editor.keepPicture('behavior');
   await editor.press('Control+b');
 });
 
@@ -82,7 +69,7 @@ test('the toolpath shows both programs of a diff', async () => {
   const compared = () => frame.evaluate(() => globalThis.isocnc.comparison?.changes.map(({ text }) => text.en) ?? null);
   await eventually(compared, 'the old path is not there', (texts) => texts?.includes('F5000 instead of F4500'));
   assert.ok(await frame.evaluate(() => globalThis.isocnc.comparison.paths.old.seconds > globalThis.isocnc.path.seconds));
-  await keep('compared');
+  await editor.keepPicture('compared');
   await frame.locator('#change-list [role=option]').first().click();
   const shown = async () => {
     await editor.focus();

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { after, afterEach, test } from 'node:test';
 import { Editor, eventually, root } from './editor.mjs';
 
-const { ISOCNC_VSIX: extension, ISOCNC_CODE_SERVER: codeServer, ISOCNC_SCREENSHOTS: pictures } = process.env;
+const { ISOCNC_VSIX: extension, ISOCNC_CODE_SERVER: codeServer } = process.env;
 const hasDebugger = existsSync(join(root, 'build/vscode-extension/stage/bin/isodap'));
 const withDebugger = { skip: hasDebugger ? false : 'there is no isodap in the package: build it first' };
 
@@ -82,14 +82,6 @@ process.stdin.on('data', (data) => {
   }
 });`;
 
-/** A picture of what is there, once it is drawn. */
-async function keep(name) {
-  if (!pictures) return;
-  mkdirSync(pictures, { recursive: true });
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  await page.screenshot({ path: join(pictures, `vscode-${name}.png`) });
-}
-
 for (const name of ['start-here.iso', 'isocnc.json']) editor.add(name, join(root, 'vscode-extension/test-drive', name));
 for (const name of ['pocket.iso', 'five-axis.iso']) editor.add(name, join(root, 'examples', name));
 mkdirSync(join(editor.workspace, 'setup'));
@@ -109,12 +101,7 @@ await editor.openWorkbench();
 after(async () => {
   await editor.stop();
 });
-afterEach(async (context) => {
-  if (!context.error && context.passed !== false) return;
-  const folder = join(root, 'build/vscode-extension');
-  await page.screenshot({ path: join(folder, 'failed.png') }).catch(() => {});
-  writeFileSync(join(folder, 'failed.log'), editor.log);
-});
+afterEach((context) => editor.showFailure(context));
 
 const hidePanel = () => editor.hidePanel();
 
@@ -199,7 +186,7 @@ test('a hover shows what a word means, and what is wrong', async () => {
     (hover) => hover.includes('ISO031') && /radius|center/i.test(hover),
   );
   assert.match(text, /15 mm/);
-  await keep('editor');
+  await editor.keepPicture('editor');
   await editor.press('Escape');
 });
 
@@ -303,7 +290,7 @@ test('the move of the line at the cursor lights up', async () => {
   await eventually(litLine, 'line 22 does not light up', (line) => line === 22);
   await editor.press('ArrowDown');
   await eventually(litLine, 'line 23 does not light up', (line) => line === 23);
-  await keep('toolpath');
+  await editor.keepPicture('toolpath');
 });
 
 test('a click on a move reveals its line', async () => {
@@ -385,7 +372,7 @@ test('five axes have their tool turned, in the light theme', async () => {
   await eventually(litLine, 'line 25 does not light up', (line) => line === 25);
   assert.ok(await frame.evaluate(() => Math.abs(globalThis.isocnc.path.at(globalThis.isocnc.player.time).b) > 60));
   await frame.getByRole('button', { name: 'Iso', exact: true }).click();
-  await keep('five-axis');
+  await editor.keepPicture('five-axis');
   await editor.command('Preferences: Toggle between Light/Dark Themes');
   await eventually(() => frame.evaluate(() => document.body.classList.contains('vscode-dark')), 'the theme stays light');
 });
@@ -408,7 +395,7 @@ test('the toolpath shows the setup of a program, and leads to what the machine h
   await editor.focus();
   await editor.goTo(36);
   await eventually(() => entries.nth(3).getAttribute('aria-current'), 'its contact does not light up', (is) => is === 'true');
-  await keep('contacts');
+  await editor.keepPicture('contacts');
 });
 
 test('a program runs on the simulator, in the terminal', async () => {
@@ -507,7 +494,7 @@ test('F5 runs the open program; steps go forward and back', withDebugger, async 
   await page.locator('.debug-toolbar .codicon-debug-step-back').click();
   await eventually(stoppedAt, 'it does not step back', (line) => line === 7);
   await eventually(variables, 'V1 is not 2.5 again', (rows) => rows.some((row) => /V1\D.*2\.5/.test(row)));
-  await keep('debug');
+  await editor.keepPicture('debug');
 });
 
 test('the toolpath has the tool where the debugger has it', withDebugger, async () => {

@@ -312,6 +312,24 @@ export class Editor {
     return readFileSync(join(this.folder, 'server.log'), 'utf8');
   }
 
+  /** After a test that failed: what is on the screen, and the log, as build/vscode-extension/NAME.png and .log. */
+  async showFailure(context, name = 'failed') {
+    if (!context.error && context.passed !== false) return;
+    const folder = join(root, 'build/vscode-extension');
+    mkdirSync(folder, { recursive: true });
+    await this.page.screenshot({ path: join(folder, `${name}.png`) }).catch(() => {});
+    writeFileSync(join(folder, `${name}.log`), this.log);
+  }
+
+  /** A picture of what is there, once it is drawn, where ISOCNC_SCREENSHOTS names a folder for them. */
+  async keepPicture(name) {
+    const pictures = process.env.ISOCNC_SCREENSHOTS;
+    if (!pictures) return;
+    mkdirSync(pictures, { recursive: true });
+    await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await this.page.screenshot({ path: join(pictures, `vscode-${name}.png`) });
+  }
+
   /** The server's own group: the extension host and isols are in it. */
   #kill(signal) {
     try {

@@ -1,13 +1,13 @@
 // The package for browsers in a VS Code that is only a page, as vscode.dev is: all of it works without a native program.
 // With ISOCNC_SCREENSHOTS=FOLDER it leaves a picture there, which docs/images/ has.
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, test } from 'node:test';
 import { eventually, root } from './editor.mjs';
 import { WebEditor } from './web_editor.mjs';
 
-const { ISOCNC_WEB_STAGE: extension, ISOCNC_CODE_SERVER: codeServer, ISOCNC_SCREENSHOTS: pictures } = process.env;
+const { ISOCNC_WEB_STAGE: extension, ISOCNC_CODE_SERVER: codeServer } = process.env;
 assert.ok(extension && codeServer, 'ISOCNC_WEB_STAGE and ISOCNC_CODE_SERVER name the package\'s content and the editor: start tests/vscode/run --web');
 
 const text = (...names) => readFileSync(join(root, ...names), 'utf8');
@@ -45,21 +45,7 @@ const { page } = editor;
 await editor.openWorkbench();
 
 after(() => editor.stop());
-afterEach(async (context) => {
-  if (!context.error && context.passed !== false) return;
-  const folder = join(root, 'build/vscode-extension');
-  mkdirSync(folder, { recursive: true });
-  await page.screenshot({ path: join(folder, 'failed-web.png') }).catch(() => {});
-  writeFileSync(join(folder, 'failed-web.log'), editor.log);
-});
-
-/** A picture of what is there, once it is drawn. */
-async function keep(name) {
-  if (!pictures) return;
-  mkdirSync(pictures, { recursive: true });
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  await page.screenshot({ path: join(pictures, `vscode-${name}.png`) });
-}
+afterEach((context) => editor.showFailure(context, 'failed-web'));
 
 const lineBecomes = (line, pattern, what) => eventually(() => editor.lineText(line), what, (now) => pattern.test(now ?? ''));
 const problems = () => editor.problems();
@@ -196,7 +182,7 @@ test('the toolpath shows the moves of the program, and follows the cursor and th
   await editor.focus();
   await editor.goTo(22);
   await eventually(() => editor.litLine(), 'line 22 does not light up', (line) => line === 22);
-  await keep('web');
+  await editor.keepPicture('web');
   const furthest = () => frame.evaluate(() => globalThis.isocnc.path.work.max[0]);
   const reached = await furthest();
   await editor.goTo(25, 99);
