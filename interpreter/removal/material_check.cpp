@@ -733,7 +733,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   // The dexels do not measure along a tool that lies, and the material ends up to half a spacing beside them.
   const double aside = stock_.spacing() / 2 * (1 - std::abs(up.z()));
   const double skin = forms_->skin(incident.part);
-  if (is_lying(up)) incident.amount = *rise + skin + aside;
+  if (is_lying(up) || is_lying(axis_of(path))) incident.amount = *rise + skin + aside;
   if (!episode.begins_in_feed && !does_height_help(waiting_[use.stretch])) return;
   incident.enough = std::ceil((incident.level + *rise + skin + aside - 0.01) * 10) / 10 + 0.0;  // No -0.
 }

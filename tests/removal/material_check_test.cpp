@@ -442,6 +442,15 @@ TEST(Material, ToolsThatLie) {
   EXPECT_NEAR(rapid.contacts[0].enough.value(), 0.2, 0.2);
 }
 
+TEST(Material, ALyingToolIsAsDeepAsItMustRise) {
+  // The tip goes 50 mm into the side of the block. The tool lies along X, its lower edge 30 and 40 mm below the face.
+  Bench bench(MachineKind::Head);
+  bench.scene.tools[Shop::kTool].holder.reset();
+  const std::string beside = "G00 X450 Y150 Z200 B90 C0\n";
+  EXPECT_EQ(told(bench.cut(beside + "Z20\nX350\nX450\n")), Lines{"E150 5 30.0 Z50.0"});
+  EXPECT_EQ(told(bench.cut(beside + "Z10\nX350\nX450\n")), Lines{"E150 5 40.0 Z50.0"});
+}
+
 TEST(Material, AShankThatRubsOnALyingToolToldByItsDepth) {
   // 25 mm deep into the front face, with an edge of 20 mm.
   Bench bench(MachineKind::Head);
