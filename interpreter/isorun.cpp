@@ -19,6 +19,7 @@
 #include "interpreter/configuration/scenes.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/outline/outline_program.h"
 #include "interpreter/plot/page_template.h"
 #include "interpreter/plot/plot_tools.h"
 #include "interpreter/restart/restart.h"
@@ -62,12 +63,16 @@ struct RunCommandOptions {
   std::optional<std::string> restart_at;
   std::string output;
   std::optional<std::string> clearance;
-  std::string approach_feed = "1000";
+  std::optional<std::string> approach_feed;
+  std::optional<std::string> outline;
+  std::optional<std::string> tool;
   configuration::ConfigurationSource source;
   std::optional<std::string> machine;
 
   Language reader_language() const { return dialect::language_named(language).value_or(system::user_language()); }
   bool reads_stdin() const { return file == "-"; }
+  /// Whether a program is written instead of a report.
+  bool makes_program() const { return restart_at || outline || tool; }
   /// The path of the program file for the system.
   std::string program_file() const { return reads_stdin() ? "/dev/stdin" : file; }
   std::string shown_file() const { return reads_stdin() ? "<stdin>" : file; }
@@ -84,6 +89,24 @@ constexpr Text kWrongClearance{"--clearance takes a plain number of mm, such as 
 constexpr Text kWrongApproachFeed{
     "--approach-feed takes a plain number of mm/min above 0, such as 1000, not {}",
     "--approach-feed vuole un numero semplice in mm/min maggiore di 0, come 1000, non {}"};
+constexpr Text kWrongOutline{"--outline takes rectangle, hull or path, not {}",
+                             "--outline vuole rectangle, hull o path, non {}"};
+constexpr Text kWrongTool{"--tool takes a tool such as T102003, or with the line of its M06 T102003@40, not {}",
+                          "--tool vuole un utensile come T102003, o con la riga della sua M06 T102003@40, non {}"};
+constexpr Text kNotMounted{"{} is mounted by no M06 that the run comes to",
+                           "nessuna M06 a cui arriva l'esecuzione monta {}"};
+constexpr Text kNotMountedThere{"{} is not mounted there, but by the M06 of: line {}",
+                                "{} non viene montato lì, ma dalla M06 di: riga {}"};
+constexpr Text kMountedTwice{"{0} is mounted more than once, by the M06 of lines {1}; --tool {0}@{2} means the first",
+                             "{0} viene montato più di una volta, dalle M06 delle righe {1}; --tool {0}@{2} intende "
+                             "la prima"};
+constexpr Text kOfMadePrograms{"{} goes with --restart-at, --tool or --outline",
+                               "{} va con --restart-at, --tool o --outline"};
+constexpr Text kCutsNothing{"there is no outline: the program has no feed move with a tool",
+                            "non c'è un contorno: il programma non ha movimenti di lavoro con un utensile"};
+constexpr Text kNoWayAround{"no outline is written: on its way, {}; --clearance sets another height",
+                            "il contorno non viene scritto: lungo il percorso, {}; --clearance sceglie un'altra "
+                            "quota"};
 constexpr Text kOverwrites{"this would overwrite {}", "così si sovrascriverebbe {}"};
 constexpr Text kProgram{"the program", "il programma"};
 constexpr Text kConfiguration{"the configuration", "la configurazione"};
@@ -167,24 +190,90 @@ std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   return outputs;
 }
 
-/// The options of the restart; none after an error message.
+/// How a program that is written comes near the work.
+struct ApproachValues {
+  std::optional<double> clearance;  ///< mm.
+  double feed = 1000;               ///< mm/min.
+};
+
+/// None after an error message.
+std::optional<ApproachValues> read_approach(const RunCommandOptions& options) {
+  ApproachValues read;
+  if (options.clearance) {
+    read.clearance = read_decimal(*options.clearance);
+    if (!read.clearance) return refuse(kWrongClearance, *options.clearance, options);
+  }
+  if (options.approach_feed) {
+    const auto feed = read_decimal(*options.approach_feed);
+    if (!feed || !(*feed > 0)) return refuse(kWrongApproachFeed, *options.approach_feed, options);
+    read.feed = *feed;
+  }
+  return read;
+}
+
+/// The name of the program in the comments of those that are made of it.
+std::string name_in_comments(const RunCommandOptions& options) {
+  return options.reads_stdin() ? "<stdin>" : std::filesystem::path(options.file).filename().generic_string();
+}
+
+/// The operation that --tool means.
+struct ToolChoice {
+  execution::ToolCode tool;
+  std::optional<std::size_t> change;  ///< The line of its M06, from 0.
+};
+
+/// None after an error message.
+std::optional<ToolChoice> read_tool(const RunCommandOptions& options) {
+  constexpr std::size_t kLargest = 999'999;
+  std::string_view word = *options.tool;
+  ToolChoice choice;
+  if (const std::size_t sign = word.find('@'); sign != std::string_view::npos) {
+    const auto line = read_count(word.substr(sign + 1), std::numeric_limits<std::size_t>::max());
+    if (!line) return refuse(kWrongTool, *options.tool, options);
+    choice.change = *line - 1;
+    word = word.substr(0, sign);
+  }
+  if (word.starts_with('T') || word.starts_with('t')) word.remove_prefix(1);
+  const auto number = read_count(word, kLargest);
+  if (!number) return refuse(kWrongTool, *options.tool, options);
+  choice.tool = execution::tool_code(static_cast<int>(*number));
+  return choice;
+}
+
+/// The options of a restart, or of an operation alone; none after an error message.
 std::optional<restart::RestartOptions> read_restart_options(const RunCommandOptions& options,
                                                             const running::RunOptions& run) {
   restart::RestartOptions restart;
-  restart.run = run;
-  restart.language = options.reader_language();
-  restart.name = options.reads_stdin() ? "<stdin>" : std::filesystem::path(options.file).filename().generic_string();
-  const auto line = read_count(*options.restart_at, std::numeric_limits<std::size_t>::max());
-  if (!line) return refuse(kWrongRestart, *options.restart_at, options);
-  restart.line = *line - 1;
-  if (options.clearance) {
-    restart.clearance = read_decimal(*options.clearance);
-    if (!restart.clearance) return refuse(kWrongClearance, *options.clearance, options);
+  if (options.restart_at) {
+    const auto line = read_count(*options.restart_at, std::numeric_limits<std::size_t>::max());
+    if (!line) return refuse(kWrongRestart, *options.restart_at, options);
+    restart.line = *line - 1;
   }
-  const auto feed = read_decimal(options.approach_feed);
-  if (!feed || !(*feed > 0)) return refuse(kWrongApproachFeed, options.approach_feed, options);
-  restart.approach_feed = *feed;
+  const std::optional<ApproachValues> approach = read_approach(options);
+  if (!approach) return std::nullopt;
+  restart.run = run;
+  restart.clearance = approach->clearance;
+  restart.approach_feed = approach->feed;
+  restart.name = name_in_comments(options);
+  restart.language = options.reader_language();
   return restart;
+}
+
+/// The options of the outline; none after an error message.
+std::optional<outline::OutlineOptions> read_outline_options(const RunCommandOptions& options,
+                                                            const running::RunOptions& run) {
+  const auto shape = outline::outline_shape(*options.outline);
+  if (!shape) return refuse(kWrongOutline, *options.outline, options);
+  const std::optional<ApproachValues> approach = read_approach(options);
+  if (!approach) return std::nullopt;
+  outline::OutlineOptions outline;
+  outline.run = run;
+  outline.shape = *shape;
+  outline.height = approach->clearance;
+  outline.feed = approach->feed;
+  outline.name = name_in_comments(options);
+  outline.language = options.reader_language();
+  return outline;
 }
 
 /// Prints a finding in the format of compilers.
@@ -264,7 +353,7 @@ std::vector<NamedFile> files_written(const RunCommandOptions& options) {
   add(options.plot, "--plot");
   add(options.stock_out, "--stock-out");
   add(options.output, "--output");
-  const bool leaves_standard_output_alone = options.restart_at && files.size() == 1;
+  const bool leaves_standard_output_alone = options.makes_program() && files.size() == 1;
   if (!leaves_standard_output_alone) files.push_back({"/dev/stdout", kStandardOutput.in(options.reader_language())});
   return files;
 }
@@ -344,7 +433,8 @@ ExitStatus run_program(std::string_view program, const RunCommandOptions& option
   return has_errors ? ExitStatus::Findings : ExitStatus::Success;
 }
 
-bool write_restart(std::string_view program, const RunCommandOptions& options) {
+/// Writes a program to where --output says; false after an error message.
+bool write_made(std::string_view program, const RunCommandOptions& options) {
   const bool is_file = !options.output.empty() && options.output != "-";
   std::optional<system::OutputFile> output;
   if (is_file) {
@@ -359,20 +449,94 @@ bool write_restart(std::string_view program, const RunCommandOptions& options) {
   return !problem;
 }
 
-ExitStatus restart(const system::SourceFile& source, const RunCommandOptions& options,
-                   const restart::RestartOptions& restart_options) {
-  const auto made = restart::restart_program(source.text(), restart_options);
-  if (const auto* const program = std::get_if<std::string>(&made)) {
-    const std::string_view mark = source.has_byte_order_mark() ? system::kByteOrderMark : "";
-    return write_restart(std::string(mark) + *program, options) ? ExitStatus::Success : ExitStatus::Failure;
-  }
-  const auto& refusal = std::get<restart::RestartRefusal>(made);
+/// Writes a program that holds parts of the original, with its byte-order mark.
+ExitStatus write_part(std::string_view program, const system::SourceFile& source, const RunCommandOptions& options) {
+  const std::string_view mark = source.has_byte_order_mark() ? system::kByteOrderMark : "";
+  return write_made(fmt::format("{}{}", mark, program), options) ? ExitStatus::Success : ExitStatus::Failure;
+}
+
+/// Says why there is no restart.
+ExitStatus refuse(const restart::RestartRefusal& refusal, const RunCommandOptions& options) {
   if (refusal.obstacle == restart::RestartObstacle::ProgramError) {
     print_error(options, refusal.run);
     return ExitStatus::Findings;
   }
   complain(fmt::format("{}: {}", options.shown_file(), message(refusal, options.reader_language())));
   return refusal.obstacle == restart::RestartObstacle::NoSuchLine ? ExitStatus::Failure : ExitStatus::Findings;
+}
+
+ExitStatus restart(const system::SourceFile& source, const RunCommandOptions& options,
+                   const restart::RestartOptions& restart_options) {
+  const auto made = restart::restart_program(source.text(), restart_options);
+  if (const auto* const program = std::get_if<std::string>(&made)) return write_part(*program, source, options);
+  return refuse(std::get<restart::RestartRefusal>(made), options);
+}
+
+ExitStatus write_operation(const system::SourceFile& source, const RunCommandOptions& options,
+                           const restart::RestartOptions& restart_options, const ToolChoice& choice) {
+  const auto made = restart::operation_program(source.text(), restart_options, choice.tool, choice.change);
+  if (const auto* const program = std::get_if<std::string>(&made)) return write_part(*program, source, options);
+  const auto& refusal = std::get<restart::OperationRefusal>(made);
+  if (refusal.restart) return refuse(*refusal.restart, options);
+  const Language language = options.reader_language();
+  const std::string tool = running::tool_name(choice.tool);
+  std::string lines;
+  for (const std::size_t line : refusal.changes) lines += fmt::format("{}{}", lines.empty() ? "" : ", ", line + 1);
+  std::string why;
+  if (refusal.changes.empty()) {
+    why = dialect::format(kNotMounted, language, tool);
+  } else if (choice.change) {
+    why = dialect::format(kNotMountedThere, language, tool, lines);
+  } else {
+    why = dialect::format(kMountedTwice, language, tool, lines, refusal.changes.front() + 1);
+  }
+  complain(fmt::format("{}: {}", options.shown_file(), why));
+  return ExitStatus::Failure;
+}
+
+/// What would stop a program, or be hit on its way: the first error, for an operator; empty for none.
+std::string obstacle_on_the_way(std::string_view program, const RunCommandOptions& options,
+                                const running::RunOptions& run_options, const RunSettings& settings) {
+  const Language language = options.reader_language();
+  RunOutputs outputs;
+  outputs.language = language;
+  outputs.subject.home = settings.machine.setup.home;
+  outputs.subject.scene = settings.scene;
+  if (settings.scene) outputs.subject.origin = verification::first_workpiece_origin(program, run_options);
+  outputs.material.is_cut = true;
+  RunReport report(outputs, settings.machine.timed);
+  running::RunOptions trial = run_options;
+  trial.before_block = [&](const running::Block& block) { report.take(block); };
+  const running::RunResult result = run(program, trial, [&](const running::Event& event) { report.take(event); });
+  if (result.ending == running::Ending::Error) return running::error_message(result, language);
+  const verification::VerifiedRun verified = report.end_run(program, result);
+  const check::Report shown = selection::shown_run_report(verified.outcome, program, settings.selection);
+  syntax::LineFinder lines(program);
+  for (const check::LocatedFinding& located : shown.findings)
+    if (located.severity() == dialect::Severity::Error)
+      return formats::message_of(located, shown, lines.line(located.line), language);
+  return {};
+}
+
+ExitStatus write_outline(const system::SourceFile& source, const RunCommandOptions& options,
+                         const outline::OutlineOptions& outline_options, const RunSettings& settings) {
+  const Language language = options.reader_language();
+  const auto made = outline::outline_program(source.text(), outline_options);
+  if (const auto* const refusal = std::get_if<outline::OutlineRefusal>(&made)) {
+    if (refusal->run.ending == running::Ending::Error) {
+      print_error(options, refusal->run);
+    } else {
+      complain(fmt::format("{}: {}", options.shown_file(), kCutsNothing.in(language)));
+    }
+    return ExitStatus::Findings;
+  }
+  const auto& program = std::get<std::string>(made);
+  const std::string obstacle = obstacle_on_the_way(program, options, outline_options.run, settings);
+  if (!obstacle.empty()) {
+    complain(fmt::format("{}: {}", options.shown_file(), dialect::format(kNoWayAround, language, obstacle)));
+    return ExitStatus::Findings;
+  }
+  return write_made(program, options) ? ExitStatus::Success : ExitStatus::Failure;
 }
 
 /// The settings of the run; none, after an error message, if a file is invalid. The program's configuration also sets
@@ -399,8 +563,9 @@ std::optional<RunSettings> find_settings(RunCommandOptions& options) {
   configuration::Configuration surrounded = configuration;
   surrounded.machine = machine.machine;
   configuration::Scenes scenes(options.reader_language());
-  RunSettings found_settings{machine.machine, configuration.file, settings.selection, settings.setup,
-                             options.restart_at || options.source.none ? nullptr : scenes.of(surrounded, program)};
+  RunSettings found_settings{
+      machine.machine, configuration.file, settings.selection, settings.setup,
+      options.restart_at || options.tool || options.source.none ? nullptr : scenes.of(surrounded, program)};
   const std::vector<std::string> mistakes = scenes.mistakes(options.reader_language());
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
   return mistakes.empty() ? std::optional(std::move(found_settings)) : std::nullopt;
@@ -453,10 +618,21 @@ ExitStatus run_file(RunCommandOptions options) {
   std::optional<RunOutputs> outputs = read_outputs(options);
   if (!outputs) return ExitStatus::Failure;
   std::optional<restart::RestartOptions> restart_options;
-  if (options.restart_at) {
+  if (options.restart_at || options.tool) {
     restart_options = read_restart_options(options, *run_options);
     if (!restart_options) return ExitStatus::Failure;
     restart_options->machine = machine.timed;
+  }
+  std::optional<ToolChoice> operation;
+  if (options.tool) {
+    operation = read_tool(options);
+    if (!operation) return ExitStatus::Failure;
+  }
+  std::optional<outline::OutlineOptions> outline_options;
+  if (options.outline) {
+    outline_options = read_outline_options(options, *run_options);
+    if (!outline_options) return ExitStatus::Failure;
+    outline_options->machine = machine.timed;
   }
   if (!files_are_apart(options, found->configuration)) return ExitStatus::Failure;
   const auto opened = options.reads_stdin() ? system::SourceFile::read_stream(system::kStandardInput, language)
@@ -466,12 +642,21 @@ ExitStatus run_file(RunCommandOptions options) {
     return ExitStatus::Failure;
   }
   const auto& source = std::get<system::SourceFile>(opened);
+  if (operation) return write_operation(source, options, *restart_options, *operation);
   if (restart_options) return restart(source, options, *restart_options);
+  if (outline_options) return write_outline(source, options, *outline_options, *found);
   outputs->subject = plot_subject(source.text(), machine, options);
   outputs->subject.scene = found->scene;
   if (!can_cut(options, *outputs)) return ExitStatus::Failure;
   if (found->scene) outputs->subject.origin = verification::first_workpiece_origin(source.text(), *run_options);
   return run_program(source.text(), options, *run_options, *outputs, *found);
+}
+
+/// An option that is given and says how a program is written; empty for none.
+std::string_view option_of_made_programs(const RunCommandOptions& options) {
+  if (!options.output.empty()) return "--output";
+  if (options.clearance) return "--clearance";
+  return options.approach_feed ? "--approach-feed" : "";
 }
 
 ExitStatus run_main(int argc, char** argv) {
@@ -492,17 +677,26 @@ ExitStatus run_main(int argc, char** argv) {
                        "why, and names the nearest lines where it is.",
                        "Con --restart-at scrive un programma che rimette la macchina nello stato prima di quella "
                        "linea, si avvicina dall'alto e prosegue con le linee da lì in poi. Dove non è sicuro dice "
-                       "perché, e indica le linee più vicine da cui lo è."}},
+                       "perché, e indica le linee più vicine da cui lo è."},
+                      {"With --tool it writes a program that does one operation alone, begun as a restart is.",
+                       "Con --tool scrive un programma che fa una sola lavorazione, iniziata come una ripresa."},
+                      {"With --outline it writes a program that goes around the job, above it and with the spindle "
+                       "off, to see before the first cut that everything has room. It is run on the simulated machine "
+                       "first.",
+                       "Con --outline scrive un programma che gira intorno al lavoro, sopra di esso e a mandrino "
+                       "fermo, per vedere prima del primo taglio che tutto abbia posto. Prima lo esegue sulla macchina "
+                       "simulata."}},
        .exit =
            {{"0",
-             {"The program ran to its M02, or to the line of --until; or the restart program has been written.",
-              "Il programma è arrivato alla sua M02, o alla linea di --until; oppure il programma di ripresa è "
-              "stato scritto."}},
+             {"The program ran to its M02, or to the line of --until; or the program asked for has been written.",
+              "Il programma è arrivato alla sua M02, o alla linea di --until; oppure il programma chiesto è stato "
+              "scritto."}},
             {"1",
              {"An error stopped the program, as it would stop the control; or a finding of the machine is an error, "
-              "such as a joint outside its travel; or there is no safe restart before the line.",
+              "such as a joint outside its travel; or there is no safe restart, or no free way for the outline.",
               "Un errore ha fermato il programma, come fermerebbe il controllo; oppure una segnalazione della macchina "
-              "è un errore, come un asse macchina fuori corsa; oppure prima della linea non c'è una ripresa sicura."}},
+              "è un errore, come un asse macchina fuori corsa; oppure non c'è una ripresa sicura, o per il contorno "
+              "non c'è via libera."}},
             {"2",
              {"A mistake in the command or in an isocnc.json, or something could not be read or written.",
               "Un errore nel comando o in un isocnc.json, oppure qualcosa che non si è potuto leggere o scrivere."}}},
@@ -550,7 +744,7 @@ ExitStatus run_main(int argc, char** argv) {
   program.add_language(options.language,
                        {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
 
-  program.begin_group({"Restart", "Ripresa"});
+  program.begin_group({"Programs made of this one", "Programmi ricavati da questo"});
   const command_line::ProgramOption restart_at = program
                                                      .add_option("--restart-at", options.restart_at, {"LINE", "RIGA"},
                                                                  {"Write a program that goes on from this line",
@@ -562,18 +756,47 @@ ExitStatus run_main(int argc, char** argv) {
                                                      .excludes(stock_out)
                                                      .excludes(verify)
                                                      .excludes(json);
-  const command_line::ProgramOption restarting[] = {
-      program.add_option(
-          "-o,--output", options.output, command_line::kFileValue,
-          {"Where to write it; else to standard output", "Dove scriverlo; altrimenti sullo standard output"}),
-      program.add_option("--clearance", options.clearance, {"Z", "Z"},
-                         {"Go down in rapid to this Z; else machine.clearance",
-                          "Scende in rapido fino a questa Z; altrimenti\nmachine.clearance"}),
-      program.add_option(
-          "--approach-feed", options.approach_feed, {"F", "F"},
-          {"Then feed down at most at this F (else 1000)", "Poi scende al più con questa F (altrimenti 1000)"})};
-  for (const command_line::ProgramOption& option : restarting) option.needs(restart_at);
+  const command_line::ProgramOption tool =
+      program
+          .add_option("--tool", options.tool, {"T", "T"},
+                      {"Write a program of the operation of this tool alone;\nT@LINE: that of this M06",
+                       "Scrive un programma della sola lavorazione di questo\nutensile; T@RIGA: quella di questa M06"})
+          .excludes(restart_at)
+          .excludes(until)
+          .excludes(trace)
+          .excludes(samples)
+          .excludes(plot)
+          .excludes(stock_out)
+          .excludes(verify)
+          .excludes(json);
+  program
+      .add_option("--outline", options.outline, {"SHAPE", "FORMA"},
+                  {"Write a program that goes around the job:\nrectangle, hull or path",
+                   "Scrive un programma che gira intorno al lavoro:\nrectangle (rettangolo), hull (convesso) o path\n"
+                   "(contorno)"})
+      .excludes(restart_at)
+      .excludes(tool)
+      .excludes(until)
+      .excludes(trace)
+      .excludes(samples)
+      .excludes(plot)
+      .excludes(stock_out)
+      .excludes(verify)
+      .excludes(json);
+  program.add_option(
+      "-o,--output", options.output, command_line::kFileValue,
+      {"Where to write it; else to standard output", "Dove scriverlo; altrimenti sullo standard output"});
+  program.add_option("--clearance", options.clearance, {"Z", "Z"},
+                     {"Restart: go down in rapid to this Z, else to\nmachine.clearance; outline: go around there",
+                      "Ripresa: scende in rapido fino a questa Z, altrimenti\na machine.clearance; contorno: gira lì"});
+  program.add_option("--approach-feed", options.approach_feed, {"F", "F"},
+                     {"Restart: then feed down at most at this F (else\n1000); outline: go around at it",
+                      "Ripresa: poi scende al più con questa F (altrimenti\n1000); contorno: gira con questa"});
   if (const auto status = program.answer(argc, argv)) return *status;
+  if (const std::string_view lonely = option_of_made_programs(options); !lonely.empty() && !options.makes_program()) {
+    complain(dialect::format(kOfMadePrograms, options.reader_language(), lonely));
+    return ExitStatus::Failure;
+  }
   return run_file(options);
 }
 

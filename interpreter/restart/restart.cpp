@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "interpreter/dialect/format.h"
 #include "interpreter/geometry/arc.h"
 #include "interpreter/text/characters.h"
@@ -123,10 +125,10 @@ struct RestartTrial {
   std::optional<kinematics::Overtravel> overtravel;  ///< The first one before the line.
 };
 
-/// Runs the restart program as the control would, from home.
-RestartTrial try_program(std::string_view program, std::size_t preamble_lines, const RestartSurvey& survey,
-                         const RestartOptions& options) {
-  const RestartPoint& point = survey.point();
+/// Runs the restart program as the control would, from home. `wanted_end` is the state at its end, or where the rest
+/// of the original breaks off.
+RestartTrial try_program(std::string_view program, std::size_t preamble_lines, const RestartPoint& point,
+                         const State& wanted_end, const RestartOptions& options) {
   // If the tip is off the program, the restart starts from another programmed position; runs_alike() checks the rest.
   const auto is_same = [&](const State& a, const State& b) {
     return is_same_but_for_tip(a, b, point.continues_motion) &&
@@ -135,8 +137,11 @@ RestartTrial try_program(std::string_view program, std::size_t preamble_lines, c
   RestartTrial trial;
   simulation::MachineCourse course(options.machine, options.run.setup.home);
   bool comes_to_state = false;
+  bool comes_to_end = false;
   running::RunOptions run_options = options.run;
   run_options.before_block = [&](const running::Block& block) {
+    if (options.end && block.line == preamble_lines + (*options.end - options.line))
+      comes_to_end = is_same(block.state, wanted_end);
     if (block.line == preamble_lines)
       comes_to_state = is_same(block.state, point.state) && block.registers == point.registers &&
                        is_near(course.tip().tip, point.machine_tip.tip);
@@ -152,8 +157,8 @@ RestartTrial try_program(std::string_view program, std::size_t preamble_lines, c
   const running::RunResult result = run(program, run_options, [&](const running::Event& event) {
     if (event.line < preamble_lines) course.take(event, approach);
   });
-  trial.is_proved =
-      comes_to_state && result.ending == running::Ending::ProgramEnd && is_same(result.state, survey.run().state);
+  if (!options.end) comes_to_end = is_same(result.state, wanted_end);
+  trial.is_proved = comes_to_state && comes_to_end && result.ending == running::Ending::ProgramEnd;
   return trial;
 }
 
@@ -227,9 +232,14 @@ bool runs_alike(std::string_view text, std::string_view program, std::size_t pre
                 const RestartOptions& options) {
   RemainingRun original(text, options, options.line);
   RemainingRun restarted(program, options, preamble_lines);
+  const auto next_of = [&](RemainingRun& run) {
+    auto motion = run.next();
+    if (motion && options.end && motion->line >= *options.end - options.line) motion.reset();
+    return motion;
+  };
   for (;;) {
-    const auto wanted = original.next();
-    const auto found = restarted.next();
+    const auto wanted = next_of(original);
+    const auto found = next_of(restarted);
     if (!wanted || !found) return !wanted && !found;
     if (!is_same(*wanted, *found)) return false;
   }
@@ -248,8 +258,16 @@ RestartAttempt attempt(std::string_view text, const RestartOptions& options, con
   const RestartPoint& point = survey.point();
   made.program = restart_preamble(point, options, line_end_of(text));
   const std::size_t preamble_lines = count_lines(made.program);
-  made.program += text.substr(find_line(text, options.line).offset);
-  const RestartTrial trial = try_program(made.program, preamble_lines, survey, options);
+  const std::size_t begin = find_line(text, options.line).offset;
+  State wanted_end = survey.run().state;
+  if (options.end) {
+    made.program += text.substr(begin, find_line(text, *options.end).offset - begin);
+    wanted_end = RestartSurvey(text, options.run, options.machine, *options.end).point().state;
+    made.program += fmt::format("{1}M02{0}", line_end_of(text), wanted_end.spindle_turns() ? "M05 " : "");
+  } else {
+    made.program += text.substr(begin);
+  }
+  const RestartTrial trial = try_program(made.program, preamble_lines, point, wanted_end, options);
   if (point.is_off_program && !(trial.is_proved && runs_alike(text, made.program, preamble_lines, options))) {
     made.obstacle = point.is_beside_contour ? RestartObstacle::OnContour : RestartObstacle::OffProgram;
   } else if (!trial.is_proved) {
@@ -297,8 +315,8 @@ void propose_lines(std::string_view text, const RestartOptions& options, const R
     if (below.fits(line)) refusal.after = line;
 }
 
-RestartRefusal refuse(const RestartAttempt& made, std::string_view text, const RestartOptions& options,
-                      const RestartSurvey& survey) {
+/// The reason alone, without other lines.
+RestartRefusal refuse(const RestartAttempt& made, const RestartOptions& options, const RestartSurvey& survey) {
   const RestartObstacle obstacle = made.obstacle;
   RestartRefusal refusal{.obstacle = obstacle, .line = options.line};
   refusal.cause = survey.line_of_cause(options.line);
@@ -308,8 +326,14 @@ RestartRefusal refuse(const RestartAttempt& made, std::string_view text, const R
   refusal.g =
       state.mode(obstacle == RestartObstacle::Compensation ? ModalGroup::CutterCompensation : ModalGroup::Motion);
   if (made.overtravel) refusal.overtravel = *made.overtravel;
+  return refusal;
+}
+
+RestartRefusal refuse(const RestartAttempt& made, std::string_view text, const RestartOptions& options,
+                      const RestartSurvey& survey) {
+  RestartRefusal refusal = refuse(made, options, survey);
   // Only a trial of each line would show whether the travel suffices.
-  if (obstacle != RestartObstacle::ProgramError && obstacle != RestartObstacle::BeyondTravel)
+  if (made.obstacle != RestartObstacle::ProgramError && made.obstacle != RestartObstacle::BeyondTravel)
     propose_lines(text, options, survey, refusal);
   return refusal;
 }
@@ -366,6 +390,76 @@ std::variant<std::string, RestartRefusal> restart_program(std::string_view text,
   RestartAttempt made = attempt(text, options, survey);
   if (made.obstacle != RestartObstacle::None) return refuse(made, text, options, survey);
   return std::move(made.program);
+}
+
+namespace {
+
+/// What a tool does from an M06 to the next one, or to the end of the program. Lines from 0.
+struct Operation {
+  std::size_t change = 0;     ///< Of the M06.
+  std::size_t end = 0;        ///< Of the next M06, or of the block that ends the program.
+  std::size_t first_cut = 0;  ///< The first feed move; `end` without one.
+};
+
+/// The operations of a tool on the path that the run takes.
+std::vector<Operation> operations_of(std::string_view text, const RestartOptions& options,
+                                     const execution::ToolCode& tool, running::RunResult& result) {
+  std::vector<Operation> all;
+  bool is_open = false;
+  bool has_cut = false;
+  const auto close = [&](std::size_t line) {
+    if (is_open) {
+      all.back().end = line;
+      if (!has_cut) all.back().first_cut = line;
+    }
+    is_open = false;
+  };
+  result = run(text, options.run, [&](const running::Event& event) {
+    if (const auto* const change = std::get_if<running::ToolEvent>(&event.what)) {
+      close(event.line);
+      if (change->tool != tool) return;
+      all.push_back({.change = event.line});
+      is_open = true;
+      has_cut = false;
+    } else if (const auto* const move = std::get_if<running::MoveEvent>(&event.what)) {
+      if (!is_open || has_cut || move->kind == execution::MoveKind::Rapid) return;
+      has_cut = true;
+      all.back().first_cut = event.line;
+    }
+  });
+  close(result.line);
+  return all;
+}
+
+}  // namespace
+
+std::variant<std::string, OperationRefusal> operation_program(std::string_view text, const RestartOptions& options,
+                                                              const execution::ToolCode& tool,
+                                                              std::optional<std::size_t> change) {
+  OperationRefusal refusal;
+  running::RunResult result;
+  std::vector<Operation> all = operations_of(text, options, tool, result);
+  if (result.ending != running::Ending::ProgramEnd) {
+    refusal.restart = RestartRefusal{.obstacle = RestartObstacle::ProgramError};
+    refusal.restart->run = result;
+    return refusal;
+  }
+  for (const Operation& each : all) refusal.changes.push_back(each.change);
+  if (change) std::erase_if(all, [&](const Operation& each) { return each.change != *change; });
+  if (all.size() != 1) return refusal;
+  const Operation& operation = all.front();
+  RestartOptions part = options;
+  part.end = operation.end;
+  // The first rapids may begin where only the tool change has left the tip.
+  constexpr std::size_t kMaxTrials = 20;
+  const std::size_t last = std::min(operation.first_cut, operation.change + kMaxTrials);
+  for (part.line = operation.change + 1; part.line <= last; ++part.line) {
+    const RestartSurvey survey(text, part.run, part.machine, part.line);
+    RestartAttempt made = attempt(text, part, survey);
+    if (made.obstacle == RestartObstacle::None) return std::move(made.program);
+    refusal.restart = refuse(made, part, survey);
+  }
+  return refusal;
 }
 
 std::string message(const RestartRefusal& refusal, Language language) {

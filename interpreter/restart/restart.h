@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "interpreter/kinematics/travel.h"
 #include "interpreter/restart/restart_preamble.h"
@@ -28,6 +29,21 @@ struct RestartRefusal {
 /// machine in the same position, and goes on and ends like the original. A UTF-8 byte-order mark is part of neither
 /// text.
 std::variant<std::string, RestartRefusal> restart_program(std::string_view text, const RestartOptions& options);
+
+/// Why an operation cannot be run alone.
+struct OperationRefusal {
+  std::vector<std::size_t> changes;  ///< The lines of all M06 of that tool, from 0, unless the program has an error.
+  std::optional<RestartRefusal> restart;  ///< Why there is no restart for the one that is meant; none if none is.
+};
+
+/// Returns a program that does one operation of `text` alone: what a tool does from the M06 that mounts it to the next
+/// M06, or to the end. `change` is the line of that M06, from 0; it may be left out where the tool is mounted only
+/// once. It is made and proved like a restart program, from the first line after the M06 from which a restart is
+/// possible; no feed move is left out. It ends with M02, after an M05 if the spindle turns. `line` and `end` of the
+/// options do not count.
+std::variant<std::string, OperationRefusal> operation_program(std::string_view text, const RestartOptions& options,
+                                                              const execution::ToolCode& tool,
+                                                              std::optional<std::size_t> change);
 
 /// The refusal as text for an operator, without a final line end; not for ProgramError, which has a finding.
 std::string message(const RestartRefusal& refusal, dialect::Language language);

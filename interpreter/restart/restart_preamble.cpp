@@ -13,6 +13,7 @@
 #include "interpreter/execution/silent_sink.h"
 #include "interpreter/geometry/arc.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::restart {
 
@@ -28,6 +29,7 @@ static constexpr double kAboveWork = 5;
 static constexpr double kBesideWork = 50;
 
 static constexpr Text kTitle{"; restart of {} before its line {}", "; ripresa di {} dalla riga {}"};
+static constexpr Text kTitleOfPart{"; {} alone from line {} to {}", "; solo {} dalla riga {} alla {}"};
 static constexpr Text kAssumed{"; assumed on the way there: {}", "; ipotesi sul percorso: {}"};
 static constexpr Text kNotRepeated{"; not repeated: {} of line {}", "; non ripetuta: {} della riga {}"};
 static constexpr Text kApproach{"; approach", "; avvicinamento"};
@@ -48,14 +50,6 @@ static std::string exact(double value) {
 /// tolerance.
 static constexpr double kStepsPerUnit = 1e9;
 static std::string coordinate(double value) { return exact(std::round(value * kStepsPerUnit) / kStepsPerUnit); }
-
-/// The name with every character that is not printable ASCII replaced, for use in a program.
-static std::string ascii(std::string_view name) {
-  std::string shown(name);
-  for (char& c : shown)
-    if (c < ' ' || c > '~') c = '?';
-  return shown;
-}
 
 static std::string shown(const running::FunctionEvent& function) {
   std::string text = fmt::format("M{}", function.number);
@@ -105,7 +99,9 @@ class Preamble {
 
   void write_assumed_path() {
     const dialect::Language language = options_.language;
-    comment(dialect::format(kTitle, language, ascii(options_.name), options_.line + 1));
+    const std::string name = text::ascii(options_.name);
+    comment(options_.end ? dialect::format(kTitleOfPart, language, name, options_.line + 1, *options_.end)
+                         : dialect::format(kTitle, language, name, options_.line + 1));
     std::string assumed;
     for (const int variable : point_.assumed) {
       const double value = variable == syntax::Jump::kVgplVariable
@@ -225,12 +221,7 @@ class Preamble {
   /// The maximum Z of the workpiece frame to which the machine lifts the tip from home. Rounded down, in inches too, so
   /// that the written number is not past the end of the axis.
   double reach_up() const {
-    const simulation::TimedMachine& machine = options_.machine;
-    const kinematics::Coordinates tip = kinematics::coordinates({Vec3::Zero(), state_.position.b, state_.position.c});
-    const kinematics::Coordinates nose =
-        kinematics::inverse(machine.motion.kinematics, tip, machine.tool_length(target_.tool));
-    const double highest =
-        std::floor((machine.motion.axes[kinematics::kZ].maximum - nose[kinematics::kZ]) * 1000) / 1000;
+    const double highest = options_.machine.highest_tip(target_.tool, state_.position.b, state_.position.c);
     constexpr double kNoise = 1e-3;
     const double step = state_.mm_per_unit() / kStepsPerUnit;
     return std::floor((highest - state_.workpiece_origin.z()) / step + kNoise) * step;

@@ -15,6 +15,8 @@ struct RestartOptions {
   running::RunOptions run;
   simulation::TimedMachine machine;  ///< The approach keeps to its travel; its tools give the position of the tip.
   std::size_t line = 0;              ///< From 0.
+  /// The line before which the restart program ends, by an M02; from 0. Without it, it ends like the original.
+  std::optional<std::size_t> end;
   /// Z of the frame in force at which the tool changes from rapid to feed on its way down. Without it: the machine's
   /// value (Setup::clearance) or the maximum Z at which the program itself has started or ended a feed move in that
   /// frame, whichever is higher. In any case at least 5 mm above the restart position if the tool has reached that in

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -32,6 +33,12 @@ static constexpr double kLongest = 1e9;
 double TimedMachine::tool_length(const execution::ToolCode& tool) const {
   const auto known = tool_lengths.find(tool);
   return known == tool_lengths.end() ? 0 : known->second;
+}
+
+double TimedMachine::highest_tip(const execution::ToolCode& tool, double b, double c) const {
+  const kinematics::Coordinates tip = kinematics::coordinates({geometry::Vec3::Zero(), b, c});
+  const kinematics::Coordinates nose = kinematics::inverse(motion.kinematics, tip, tool_length(tool));
+  return std::floor((motion.axes[kinematics::kZ].maximum - nose[kinematics::kZ]) * 1000) / 1000;
 }
 
 double tip_length(const TimedEvent& timed, const TimedMachine& machine) {

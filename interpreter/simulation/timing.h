@@ -38,6 +38,9 @@ struct TimedMachine {
   double spindle_speed = std::numeric_limits<double>::infinity();  ///< Maximum S, rev/min.
 
   double tool_length(const execution::ToolCode& tool) const;  ///< mm.
+  /// The highest Z of the machine frame to which Z lifts the tip of a tool while B and C stand at these angles; mm,
+  /// rounded down to 0.001.
+  double highest_tip(const execution::ToolCode& tool, double b, double c) const;
 };
 
 /// An event with its time in seconds since the program start.

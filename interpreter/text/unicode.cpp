@@ -67,4 +67,11 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string ascii(std::string_view text) {
+  std::string shown(text);
+  for (char& c : shown)
+    if (c < ' ' || c > '~') c = '?';
+  return shown;
+}
+
 }  // namespace isocnc::text

@@ -22,4 +22,7 @@ std::size_t column_of(std::string_view line, std::size_t byte);
 /// Well-formed UTF-8 for the screen: control characters and stray bytes replaced, tabs as blanks.
 std::string printable(std::string_view text);
 
+/// The text with every character that is not printable ASCII replaced by `?`, for the comments of programs.
+std::string ascii(std::string_view text);
+
 }  // namespace isocnc::text

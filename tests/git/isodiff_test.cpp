@@ -209,7 +209,7 @@ TEST_F(GitShows, WhatHasTheExtensionsOfTheConfiguration) {
   repository_.write("notes.TXT", program(11, 20));
   const std::string shown =
       shown_by("git config --unset diff.isocnc.command; GIT_EXTERNAL_DIFF='isodiff --git' git diff HEAD");
-  EXPECT_THAT(shown, StartsWith("notes.TXT\nlines "));
+  EXPECT_THAT(shown, StartsWith("notes.TXT\nT101001\n"));
 }
 
 TEST_F(GitShows, AsMarkdown) {
