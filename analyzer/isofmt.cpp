@@ -1,6 +1,8 @@
 #include <charconv>
+#include <functional>
 #include <iostream>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -9,6 +11,8 @@
 #include "analyzer/formatting/program_formatter.h"
 #include "analyzer/input/files.h"
 #include "analyzer/revisions/same_behavior.h"
+#include "analyzer/transforming/transform.h"
+#include "analyzer/transforming/transform_request.h"
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/command_line/progress.h"
@@ -52,9 +56,15 @@ struct FormatCommandOptions {
   std::string modal;
   std::string g_digits;
   std::string language;
+  transforming::TransformRequest transform;
   configuration::ConfigurationSource source;
   std::string stdin_name = "<stdin>";
 
+  /// Whether one of them asks for another way of writing, or for its proof.
+  bool changes_style() const {
+    return word_order || no_word_order || renumber_all || verify || !decimals.empty() || !renumber.empty() ||
+           !modal.empty() || !g_digits.empty();
+  }
   Language reader_language() const { return dialect::language_named(language).value_or(system::user_language()); }
   OutputMode mode() const {
     if (check) return OutputMode::Check;
@@ -74,6 +84,10 @@ constexpr Text kOneProgram{"standard output takes one program; choose --check, -
 constexpr Text kStandardInputInPlace{"standard input cannot be written in place (-i)",
                                      "lo standard input non si può riscrivere sul posto (-i)"};
 constexpr Text kNotRenumbered{"not renumbered: {}", "non rinumerato: {}"};
+constexpr Text kNotTransformed{"not changed: {}", "non modificato: {}"};
+constexpr Text kOnlyTransforms{
+    "--mirror, --rotate, --shift and --scale-feed change nothing else: format the result in a second run",
+    "--mirror, --rotate, --shift e --scale-feed non cambiano altro: formattare il risultato con un secondo comando"};
 constexpr Text kNotVerified{"not formatted, since it is not certain that it does the same: {}",
                             "non formattato, perché non è certo che faccia lo stesso: {}"};
 constexpr Text kWouldBeChanged{"{} of {} programs would be changed", "programmi da modificare: {} di {}"};
@@ -115,6 +129,15 @@ formatting::ProgramStyle style_from(configuration::Format format, const FormatCo
 /// Whether the options are valid; if not, an error has been printed.
 bool check_options(const FormatCommandOptions& options) {
   const Language language = options.reader_language();
+  const auto transformation = options.transform.read(language);
+  if (const auto* wrong = std::get_if<std::string>(&transformation)) {
+    complain(*wrong);
+    return false;
+  }
+  if (std::get<0>(transformation) && options.changes_style()) {
+    complain(kOnlyTransforms.in(language));
+    return false;
+  }
   const bool renumbers = !options.renumber.empty() && options.renumber != "keep";
   if (renumbers && !read_numbers(options.renumber)) {
     complain(dialect::format(kWrongRenumber, language, options.renumber));
@@ -142,11 +165,15 @@ struct FileSettings {
   const configuration::MachineConfiguration& machine;  ///< For the proof.
 };
 
+/// Gives the pieces of a program and of its new text, one after another, and nothing after the last.
+using NextPiece = std::function<std::optional<formatting::FormattedPiece>()>;
+
 /// Formats programs one after another.
 class FormatRun {
  public:
   FormatRun(const FormatCommandOptions& options, const input::FileSelection& selection)
       : options_(options),
+        transformation_(std::get<0>(options.transform.read(options.reader_language()))),
         selection_(selection),
         mode_(options.mode()),
         language_(options.reader_language()),
@@ -207,32 +234,51 @@ class FormatRun {
     if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);
     const auto& source = std::get<SourceFile>(opened);
     ++read_;
-    formatting::ProgramFormatter formatter(source.text(), settings.style);
-    if (const auto& obstacle = formatter.obstacle())
-      return fail(name, dialect::format(kNotRenumbered, language_, obstacle->message(language_)));
-    if (options_.verify)
-      if (const auto why = doubt(source.text(), settings))
-        return fail(name, dialect::format(kNotVerified, language_, *why));
     shown_bytes_ = 0;
-    switch (mode_) {
-      case OutputMode::Check:
-        check(formatter, name);
-        break;
-      case OutputMode::Diff:
-        show_difference(formatter, name, source.has_byte_order_mark());
-        break;
-      case OutputMode::Stdout:
-        print(formatter, source);
-        break;
-      case OutputMode::InPlace:
-        replace(formatter, source, *replacement, name);
-        break;
+    if (transformation_) {
+      transform_file(source, settings, replacement, name);
+    } else {
+      formatting::ProgramFormatter formatter(source.text(), settings.style);
+      if (const auto& obstacle = formatter.obstacle())
+        return fail(name, dialect::format(kNotRenumbered, language_, obstacle->message(language_)));
+      if (options_.verify)
+        if (const auto why = doubt(source.text(), settings))
+          return fail(name, dialect::format(kNotVerified, language_, *why));
+      put_out([&] { return formatter.next(); }, source, replacement, name);
     }
     progress_.add(source.text().size() - shown_bytes_);
   }
 
-  std::optional<formatting::FormattedPiece> next_piece(formatting::ProgramFormatter& formatter) {
-    const std::optional<formatting::FormattedPiece> piece = formatter.next();
+  void transform_file(const SourceFile& source, const FileSettings& settings,
+                      std::optional<system::FileReplacement>& replacement, const std::string& name) {
+    const auto made = transforming::transform(source.text(), *transformation_, settings.machine.setup, language_);
+    if (const auto* refusal = std::get_if<transforming::TransformationRefusal>(&made))
+      return fail(name, dialect::format(kNotTransformed, language_, refusal->message(language_)));
+    std::optional<formatting::FormattedPiece> whole;
+    if (!source.text().empty()) whole = {source.text(), std::get<std::string>(made)};
+    put_out([&] { return std::exchange(whole, std::nullopt); }, source, replacement, name);
+  }
+
+  void put_out(const NextPiece& next, const SourceFile& source, std::optional<system::FileReplacement>& replacement,
+               const std::string& name) {
+    switch (mode_) {
+      case OutputMode::Check:
+        check(next, name);
+        break;
+      case OutputMode::Diff:
+        show_difference(next, name, source.has_byte_order_mark());
+        break;
+      case OutputMode::Stdout:
+        print(next, source);
+        break;
+      case OutputMode::InPlace:
+        replace(next, source, *replacement, name);
+        break;
+    }
+  }
+
+  std::optional<formatting::FormattedPiece> next_piece(const NextPiece& next) {
+    const std::optional<formatting::FormattedPiece> piece = next();
     if (piece) {
       shown_bytes_ += piece->before.size();
       progress_.add(piece->before.size());
@@ -240,31 +286,31 @@ class FormatRun {
     return piece;
   }
 
-  void check(formatting::ProgramFormatter& formatter, const std::string& name) {
-    while (const auto piece = next_piece(formatter)) {
+  void check(const NextPiece& next, const std::string& name) {
+    while (const auto piece = next_piece(next)) {
       if (!piece->is_changed()) continue;
       ++changed_;
       return output_.write(text::printable(name) + '\n');
     }
   }
 
-  void show_difference(formatting::ProgramFormatter& formatter, const std::string& name, bool has_byte_order_mark) {
+  void show_difference(const NextPiece& next, const std::string& name, bool has_byte_order_mark) {
     fixing::UnifiedDiff diff(name, has_byte_order_mark, [&](std::string_view text) { output_.write(text); });
-    while (const auto piece = next_piece(formatter)) diff.add(piece->before, piece->after);
+    while (const auto piece = next_piece(next)) diff.add(piece->before, piece->after);
     diff.finish();
     changed_ += diff.has_changes() ? 1 : 0;
   }
 
-  void print(formatting::ProgramFormatter& formatter, const SourceFile& source) {
+  void print(const NextPiece& next, const SourceFile& source) {
     if (source.has_byte_order_mark()) output_.write(system::kByteOrderMark);
-    while (const auto piece = next_piece(formatter)) output_.write(piece->after);
+    while (const auto piece = next_piece(next)) output_.write(piece->after);
   }
 
   /// Replaces the file; leaves a file that needs no change untouched.
-  void replace(formatting::ProgramFormatter& formatter, const SourceFile& source, system::FileReplacement& replacement,
+  void replace(const NextPiece& next, const SourceFile& source, system::FileReplacement& replacement,
                const std::string& name) {
     bool is_changed = false;
-    while (const auto piece = next_piece(formatter)) {
+    while (const auto piece = next_piece(next)) {
       if (!is_changed && !piece->is_changed()) continue;
       if (!is_changed) {
         if (source.has_byte_order_mark()) replacement.write(system::kByteOrderMark);
@@ -280,6 +326,7 @@ class FormatRun {
   }
 
   const FormatCommandOptions& options_;
+  const std::optional<transforming::Transformation> transformation_;
   const input::FileSelection& selection_;
   const OutputMode mode_;
   const Language language_;
@@ -319,6 +366,20 @@ ExitStatus format(FormatCommandOptions options) {
     return ExitStatus::Failure;
   }
   return FormatRun(options, selection).run(settings);
+}
+
+void add_transform_options(command_line::ProgramApp& program, transforming::TransformRequest& options) {
+  program.begin_group({"What programs are to do instead", "Che cosa devono fare invece i programmi"});
+  program.add_choice("--mirror", options.mirror, {"X", "Y"}, {"AXIS", "ASSE"},
+                     {"Mirrored: X or Y on the other side of --about", "Specchiati: X o Y oltre la quota --about"});
+  program.add_option("--rotate", options.rotate, {"DEGREES", "GRADI"},
+                     {"Turned counterclockwise around --about", "Ruotati in senso antiorario intorno ad --about"});
+  program.add_option("--shift", options.shift, {"X,Y[,Z]", "X,Y[,Z]"}, {"Moved by these mm", "Spostati di questi mm"});
+  program.add_option("--about", options.about, {"MM", "MM"},
+                     {"The place of --mirror on its axis, or X,Y of\n--rotate",
+                      "La quota di --mirror sul suo asse, o X,Y di\n--rotate"});
+  program.add_option("--scale-feed", options.scale_feed, {"FACTOR", "FATTORE"},
+                     {"Each F multiplied by it", "Ogni F moltiplicata per questo"});
 }
 
 void add_options(command_line::ProgramApp& program, FormatCommandOptions& options) {
@@ -368,6 +429,8 @@ void add_options(command_line::ProgramApp& program, FormatCommandOptions& option
   program.add_flag("--renumber-all", options.renumber_all,
                    {"With --renumber: on every line with a block", "Con --renumber: su ogni linea con un blocco"});
 
+  add_transform_options(program, options.transform);
+
   program.begin_group({"How it is run", "Esecuzione"});
   program.add_flag("--verify", options.verify,
                    {"Run both texts, and format only what does the same",
@@ -396,6 +459,10 @@ ExitStatus run_main(int argc, char** argv) {
                        "line stay as they are, and so does all that a program does.",
                        "isofmt scrive le parole in maiuscolo, separate da uno spazio. I commenti, i terminatori di "
                        "linea e la fine dell'ultima linea restano come sono, e così tutto ciò che un programma fa."},
+                      {"With --mirror, --rotate, --shift or --scale-feed it changes what programs do instead, and "
+                       "nothing else in them. Both texts are run and compared before one is written.",
+                       "Con --mirror, --rotate, --shift o --scale-feed cambia invece ciò che i programmi fanno, e "
+                       "nient'altro. I due testi vengono eseguiti e confrontati prima di scriverne uno."},
                       {"A program that is rewritten in place is either the old or the new one, whole, whatever happens "
                        "meanwhile.",
                        "Un programma riscritto sul posto è quello vecchio o quello nuovo, sempre intero, qualunque "

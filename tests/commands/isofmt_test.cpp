@@ -42,6 +42,74 @@ TEST(Isofmt, PrintsOneProgram) {
   EXPECT_EQ(format(std::string(kUntidy)), kTidy);
 }
 
+TEST(Isofmt, MirrorsPrograms) {
+  const support::TemporaryFolder folder;
+  constexpr std::string_view kLeft = "m06t101001\r\ng0x10 y0z5 ; up\r\nM02";
+  constexpr std::string_view kRight = "m06t101001\r\ng0x790 y0z5 ; up\r\nM02";
+  const std::vector<std::string> mirror = {"isofmt", "--mirror", "X", "--about", "400"};
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), mirror.begin(), mirror.end());
+    return run_command(more, {.folder = folder.path()});
+  };
+  folder.write("left.iso", kLeft);
+  EXPECT_EQ(run({"left.iso"}).out, kRight);
+  EXPECT_EQ(run({"--check", "left.iso"}).out, "left.iso\n");
+  const CommandResult difference = run({"--diff", "left.iso"});
+  EXPECT_EQ(difference.status, 1);
+  EXPECT_THAT(difference.out, HasSubstr("-g0x10 y0z5 ; up\r\n+g0x790 y0z5 ; up\r\n"));
+  EXPECT_EQ(text_of_file(folder.path("left.iso")), kLeft);
+  EXPECT_EQ(run({"-i", "left.iso"}).status, 0);
+  EXPECT_EQ(text_of_file(folder.path("left.iso")), kRight);
+  EXPECT_EQ(format("\xEF\xBB\xBFM06 T101001\nG00 X1 Y2 Z3\nM02\n", {"--shift", "-1,0.5", "--scale-feed", "2"}),
+            "\xEF\xBB\xBFM06 T101001\nG00 X0 Y2.5 Z3\nM02\n");
+  EXPECT_EQ(format("M06 T101001\nG00 X1 Y2 Z3\nM02\n", {"--rotate=-90", "--about=0,0"}),
+            "M06 T101001\nG00 X2 Y-1 Z3\nM02\n");
+}
+
+TEST(Isofmt, LeavesAProgramThatCannotBeMirrored) {
+  const support::TemporaryFolder folder;
+  constexpr std::string_view kProgram = "M06 T101001\nG00 Y0 Z5\nG01 Y5 F100\nM02\n";
+  folder.write("wrong.iso", kProgram);
+  folder.write("right.iso", "M06 T101001\nG00 X1 Y0 Z5\nM02\n");
+  const CommandResult result = run_command(
+      {"isofmt", "-i", "--mirror", "X", "--about", "400", "wrong.iso", "right.iso"}, {.folder = folder.path()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err,
+            "isofmt: wrong.iso: not changed: line 3: the feed move starts at a place that the program has not given: "
+            "write all its coordinates in a rapid before it\n1 of 2 programs changed\n");
+  EXPECT_EQ(text_of_file(folder.path("wrong.iso")), kProgram);
+  EXPECT_EQ(text_of_file(folder.path("right.iso")), "M06 T101001\nG00 X799 Y0 Z5\nM02\n");
+}
+
+TEST(Isofmt, RefusesTransformationsThatAreNone) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"--mirror", "X"}, "--mirror goes with --about"},
+      {{"--mirror", "X", "--about", "1,2"}, "--mirror goes with --about"},
+      {{"--mirror", "X", "--about", "1e9"}, "--mirror goes with --about"},
+      {{"--mirror", "Z", "--about", "1"}, "--mirror"},
+      {{"--rotate", "90"}, "--rotate takes degrees"},
+      {{"--rotate", "nan", "--about", "1,2"}, "--rotate takes degrees"},
+      {{"--rotate", "90", "--about", "1,"}, "--rotate takes degrees"},
+      {{"--about", "1"}, "--about goes with --mirror or --rotate"},
+      {{"--shift", "5"}, "--shift takes a way"},
+      {{"--shift", "1,2,3,4"}, "--shift takes a way"},
+      {{"--shift", "1,2 (mm)"}, "--shift takes a way"},
+      {{"--scale-feed", "0"}, "--scale-feed takes a factor"},
+      {{"--scale-feed", "-1"}, "--scale-feed takes a factor"},
+      {{"--scale-feed", "0.5", "--renumber", "10:10"}, "change nothing else"},
+      {{"--shift", "1,2", "--mirror", "X", "--about", "1"}, "one of --mirror, --rotate and --shift"},
+  };
+  for (const auto& [options, message] : wrong) {
+    std::vector<std::string> command = options;
+    command.insert(command.begin(), "isofmt");
+    command.emplace_back("-");
+    const CommandResult result = run_command(command, {.input = "M02\n"});
+    EXPECT_EQ(result.status, 2) << message;
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_EQ(result.out, "");
+  }
+}
+
 TEST(Isofmt, ProvesThatTheMachineDoesTheSame) {
   EXPECT_EQ(format(std::string(kUntidy), {"--verify"}), kTidy);
   const support::TemporaryFolder folder;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "analyzer/transforming/refusal.h"
+#include "analyzer/transforming/transformation.h"
+#include "interpreter/running/runner.h"
+
+namespace isocnc::transforming {
+
+/// Runs a program and its transformed text side by side, with the VGPL of `options`, and compares what the machine does
+/// event by event: ends, centers and sweeps of motions, sides of compensation and feeds mapped, all else the same.
+/// Nothing if all of it is as it must be; else the first line where it is not.
+///
+/// Until a program has given an axis, that axis is where the machine stood when it started, in both programs. Rapids
+/// may come from there and leave it there; feed moves may not. What the error of a new program says is in `language`.
+std::optional<TransformationRefusal> find_difference(std::string_view program, std::string_view transformed,
+                                                     const ProgramMap& map, const running::RunOptions& options,
+                                                     dialect::Language language);
+
+/// The error with which a run has ended: its code and its message in a language.
+std::string error_text(const running::RunResult& result, dialect::Language language);
+
+}  // namespace isocnc::transforming
