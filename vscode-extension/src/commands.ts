@@ -3,6 +3,7 @@ import * as vscode from 'vscode';
 import * as compare from './compare';
 import { toolChangeBeside } from './program_text';
 import type { Server } from './server';
+import { askForTransformation } from './transform';
 
 export function activate(context: vscode.ExtensionContext, server: Server): void {
   const register = (name: string, run: (editor: vscode.TextEditor) => unknown) =>
@@ -14,6 +15,10 @@ export function activate(context: vscode.ExtensionContext, server: Server): void
   register('restartFromHere', ({ document, selection }) =>
     ask(server, 'isocnc.restart', { uri: document.uri.toString(), line: selection.active.line }),
   );
+  register('transformProgram', async ({ document }) => {
+    const transformation = await askForTransformation();
+    if (transformation) await ask(server, 'isocnc.transform', { uri: document.uri.toString(), ...transformation });
+  });
   compare.activate(context, server);
   context.subscriptions.push(
     vscode.commands.registerCommand('isocnc.restartServer', () => server.restart()),
