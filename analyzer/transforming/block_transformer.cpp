@@ -109,7 +109,7 @@ std::vector<int> wanted_axes(const PoseMap& map, const ArgumentWords& words, std
 
 /// Whether the map leads to coordinates that no decimals give exactly.
 bool is_rounding(const PoseMap& map) {
-  const auto part = map.linear.cwiseAbs().array();
+  const Eigen::Array33d part = map.linear.array().abs();
   return (part * (1 - part)).maxCoeff() > kNothing;
 }
 
