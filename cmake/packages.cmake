@@ -8,7 +8,7 @@ set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
                                                 WORLD_READ WORLD_EXECUTE)
 set(programs ${ISOCNC_PROGRAMS})
 set(libraries fmt dialect text syntax geometry solids chords stock kinematics motion execution system git running simulation removal verification configuration restart comparison plot outline
-              command_line rules style fixes check selection fixing formats revisions formatting input analyzer transforming)
+              command_line rules style fixes check selection fixing formats revisions formatting transforming translation input analyzer)
 set(packaged ${CMAKE_BINARY_DIR}/packaged)
 
 # Compresses as Debian requires: the same bytes each time.

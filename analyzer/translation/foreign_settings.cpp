@@ -1,0 +1,206 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "analyzer/translation/translation_run.h"
+
+namespace isocnc::translation {
+
+using Reason = UntranslatableReason;
+using enum ForeignRole;
+
+static void append_word(std::string& words, std::string_view word) {
+  if (!words.empty() && !word.empty()) words += ' ';
+  words += word;
+}
+
+static bool has_function(const std::vector<int>& functions, int number) {
+  return std::find(functions.begin(), functions.end(), number) != functions.end();
+}
+
+void TranslationRun::apply_modals(CurrentBlock& current) {
+  if (current.has(CycleEnd)) motion_ = -1;
+  for (const auto& [tenths, role] : current.gs) {
+    if (role == Motion || role == Cycle) motion_ = tenths / 10;
+    if (role == Motion) current.writes_motion = true;
+    if (role == Plane) now_.plane = tenths / 10, stated_.plane = true;
+    if (role == Inches || role == Millimeters) {
+      feed_is_written_ = feed_is_written_ && now_.inches == (role == Inches);
+      now_.inches = role == Inches;
+      stated_.units = true;
+    }
+    if (role == Absolute || role == Incremental) now_.incremental = role == Incremental, stated_.distance = true;
+    if (role == CentersAbsolute || role == CentersRelative) centers_absolute_ = role == CentersAbsolute;
+    if (role == InverseTime || role == PerMinute) now_.inverse_time = role == InverseTime, stated_.feed_mode = true;
+    if (role == RetractInitial || role == RetractR) retracts_to_r_ = role == RetractR;
+    if (role == ExactStop || role == Continuous) exact_stop_ = role == ExactStop;
+    if (role == ExactStopHere) current.exact_stop = true;
+  }
+  if (!holds_cycle()) cycle_ = {};
+  apply_suspensions(current);
+}
+
+/// Modes that this dialect lacks: while one is in force, motions stay as comments.
+void TranslationRun::apply_suspensions(CurrentBlock& current) {
+  struct SuspensionRow {
+    ForeignRole on, off;
+    Reason reason;
+  };
+  static constexpr SuspensionRow kRows[] = {
+      {Polar, PolarOff, Reason::PolarCoordinates},
+      {Scale, ScaleOff, Reason::ScaledOrMirrored},
+      {Mirror, MirrorOff, Reason::ScaledOrMirrored},
+      {Tilt, RotationOff, Reason::TiltedPlane},
+      {Diameter, Radius, Reason::DiameterMode},
+      {PerTurn, PerMinute, Reason::FeedPerTurn},
+      {SurfaceSpeed, TurnsPerMinute, Reason::SurfaceSpeed},
+      {LengthGiven, LengthOff, Reason::LengthGiven},
+  };
+  std::size_t place = 0;
+  for (const ForeignWord& word : current.words) {
+    if (word.letter != 'G') continue;
+    const ForeignRole role = current.gs[place++].second;
+    for (const SuspensionRow& row : kRows) {
+      if (role == row.off || (row.on == LengthGiven && role == Length) || (row.on == PerTurn && role == InverseTime))
+        suspended_by_.erase(row.on);
+      if (role != row.on) continue;
+      suspended_by_.insert(row.on);
+      leave_out(current, row.reason, word);
+    }
+  }
+}
+
+/// H, D and the Gs that take them. The tool's length and radius come with M06 here.
+void TranslationRun::apply_offsets(CurrentBlock& current) {
+  const ForeignWord* const h = current.find('H');
+  const ForeignWord* const d = current.find('D');
+  const bool ends_length = current.has(LengthOff) || (h != nullptr && h->value == 0);
+  const bool takes_length = !ends_length && (current.has(Length) || h != nullptr);
+  const auto is_of_other = [&](const ForeignWord* word) {
+    return word != nullptr && tool_ >= 0 && word->value != static_cast<double>(tool_);
+  };
+  const std::vector<std::string> mounted{fmt::format("T{}", tool_)};
+  if (takes_length) {
+    if (is_of_other(h)) leave_out(current, Reason::ToolOffsetOfOther, *h, mounted);
+    length_active_ = true;
+    length_off_ = false;
+  } else if (ends_length) {
+    length_off_ = length_off_ || length_active_;
+    length_active_ = false;
+  }
+  if (current.has(Compensation) && is_of_other(d)) leave_out(current, Reason::ToolOffsetOfOther, *d, mounted);
+  for (const auto& [tenths, role] : current.gs)
+    if (role == Compensation || role == CompensationOff) compensation_ = tenths / 10;
+}
+
+void TranslationRun::add_tool(CurrentBlock& current) {
+  const ForeignWord* const t = current.find('T');
+  if (t != nullptr) prepared_tool_ = static_cast<int>(t->value);
+  if (!has_function(current.ms, 6)) return;
+  const ForeignWord& m06 = *std::find_if(current.words.begin(), current.words.end(),
+                                         [](const ForeignWord& word) { return word.letter == 'M' && word.value == 6; });
+  if (prepared_tool_ < 0) return leave_out(current, Reason::ToolNumberMissing, m06);
+  const auto found = setup_.map.tools.find(prepared_tool_);
+  const bool is_mapped = found != setup_.map.tools.end();
+  tool_is_wrong_ = !is_mapped && prepared_tool_ != 0;
+  if (tool_is_wrong_) {
+    report(current, {Reason::ToolUnmapped, (t != nullptr ? *t : m06).at, {fmt::format("T{}", prepared_tool_)}});
+    append_word(current.remark, fmt::format("T{} M06", prepared_tool_));
+    tool_ = -1;
+    return;
+  }
+  tool_ = prepared_tool_;
+  mount_tool(is_mapped ? found->second : "000000");
+}
+
+/// The other controls stop the spindle for it; this one leaves it to the program.
+void TranslationRun::mount_tool(const std::string& code) {
+  if (std::exchange(spindle_, 5) != 5) writer_.add_code("M05");
+  writer_.add_code("M06 T" + code);
+  tool_is_mounted_ = true;
+}
+
+void TranslationRun::add_spindle(CurrentBlock& current) {
+  const ForeignWord* const s = current.find('S');
+  const bool stops = has_function(current.ms, 5);
+  if (s != nullptr && suspended_by_.contains(SurfaceSpeed)) {
+    append_word(current.remark, "S" + s->digits);
+  } else if (s != nullptr && s->value > 0) {
+    current.before.push_back("S" + s->digits);
+  } else if (s != nullptr && !stops) {
+    leave_out(current, Reason::SpeedNotPositive, *s);
+  }
+  for (const int m : current.ms) {
+    if (m < 3 || m > 5) continue;
+    const bool comes_after = m == 5 && setup_.control == SourceControl::Fanuc;
+    (comes_after ? current.after : current.before).push_back(fmt::format("M{:02}", m));
+    spindle_ = m;
+  }
+}
+
+void TranslationRun::add_functions(CurrentBlock& current) {
+  std::size_t place = 0;
+  for (const ForeignWord& word : current.words) {
+    if (word.letter != 'M') continue;
+    const int m = current.ms[place++];
+    const bool is_own = (m >= 2 && m <= 6) || m == 30 || m == 98 || m == 99;
+    if (is_own) continue;
+    const auto found = setup_.map.functions.find(m);
+    const bool is_named = found != setup_.map.functions.end() || setup_.named_functions.contains(m);
+    if (!is_named) {
+      leave_out(current, Reason::UnnamedFunction, word);
+      continue;
+    }
+    const int number = found != setup_.map.functions.end() ? found->second : m;
+    const bool comes_after = m == 0 || m == 1 || m == 9 || m == 60;
+    if (number > 0) (comes_after ? current.after : current.before).push_back(fmt::format("M{:02}", number));
+  }
+}
+
+void TranslationRun::add_dwell(CurrentBlock& current) {
+  if (!current.has(Dwell)) return;
+  const bool is_fanuc = setup_.control == SourceControl::Fanuc;
+  const ForeignWord* seconds = nullptr;
+  for (const char letter : {'P', 'X', 'U'})
+    if (seconds == nullptr) seconds = current.find(letter);
+  if (seconds == nullptr || seconds->value < 0) {
+    report(current, {Reason::DwellMissing, 0, {is_fanuc ? "P, X, U" : "P"}});
+    return keep_as_comment(current);
+  }
+  const bool counts_milliseconds = is_fanuc && seconds->letter == 'P';
+  dwell_for(counts_milliseconds ? seconds->value / 1000 : seconds->value);
+}
+
+/// The modal Gs that are not written yet as the program has them now.
+std::string TranslationRun::settings(bool incremental) {
+  std::string words;
+  const auto write = [&](bool is_stated, bool& is_written, bool differs, std::string_view word) {
+    if (!differs && (!is_stated || is_written)) return;
+    append_word(words, word);
+    is_written = true;
+  };
+  write(stated_.plane, written_stated_.plane, now_.plane != written_.plane, fmt::format("G{}", now_.plane));
+  write(stated_.units, written_stated_.units, now_.inches != written_.inches, now_.inches ? "G70" : "G71");
+  write(stated_.distance, written_stated_.distance, incremental != written_.incremental, incremental ? "G91" : "G90");
+  write(stated_.feed_mode, written_stated_.feed_mode, now_.inverse_time != written_.inverse_time,
+        now_.inverse_time ? "G93" : "G94");
+  written_ = now_;
+  written_.incremental = incremental;
+  return words;
+}
+
+void TranslationRun::write_words(const std::string& words) {
+  if (!words.empty()) writer_.add_code(words);
+}
+
+/// Functions that no motion has taken along.
+void TranslationRun::flush_words(CurrentBlock& current) {
+  std::string words;
+  for (auto* list : {&current.before, &current.after}) {
+    for (const std::string& word : *list) append_word(words, word);
+    list->clear();
+  }
+  write_words(words);
+}
+
+}  // namespace isocnc::translation

@@ -1,0 +1,14 @@
+; from a web tool
+G21
+G90 G94
+X0 Y0
+M3 S800
+G1 Z-.2 F300
+X10 Y5.
+G2 X20 Y5 I5 J0
+G0 Z5
+
+M5
+M8
+$H
+G38.2 Z-5 F50
