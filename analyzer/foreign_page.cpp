@@ -103,7 +103,8 @@ std::string foreign_page(Language language) {
       "finding warns of them.\n"
       "\"Fix\" means that `isolint --fix` writes it, \"unsafe fix\" that `--unsafe-fixes` is needed, too: look at the "
       "result with `--diff` first. The whole\n"
-      "language is in [the dialect](dialect.md).\n\n"
+      "language is in [the dialect](dialect.md). [`isofmt --from`](isofmt.md#programs-of-other-controls) translates "
+      "whole programs of Fanuc, LinuxCNC and Grbl.\n\n"
       "This page is made from the table in `interpreter/dialect/foreign_form_table.cpp` (`isolint --foreign-page`).\n",
       "# Da un altro controllo\n\n"
       "Che cosa si scrive nei programmi di altri controlli, e che questo controllo legge in altro modo o non legge "
@@ -114,7 +115,9 @@ std::string foreign_page(Language language) {
       "nessuna segnalazione avvisa.\n"
       "\"Correzione\" vuol dire che la scrive `isolint --fix`, \"correzione non sicura\" che serve anche "
       "`--unsafe-fixes`: guardare prima il risultato con\n"
-      "`--diff`. Il linguaggio intero è nel [dialetto](dialetto.md).\n\n"
+      "`--diff`. Il linguaggio intero è nel [dialetto](dialetto.md). "
+      "[`isofmt --from`](isofmt.md#programmi-di-altri-controlli) traduce programmi interi di Fanuc, LinuxCNC e "
+      "Grbl.\n\n"
       "Questa pagina nasce dalla tabella in `interpreter/dialect/foreign_form_table.cpp` "
       "(`isolint --lang it --foreign-page`).\n"};
   static constexpr Text kRuns = {"Runs here, and means something else:", "Qui gira, e vuol dire un'altra cosa:"};

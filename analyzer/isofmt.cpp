@@ -7,12 +7,15 @@
 
 #include <fmt/format.h>
 
+#include "analyzer/check/check_text.h"
 #include "analyzer/fixing/unified_diff.h"
+#include "analyzer/formats/rendering.h"
 #include "analyzer/formatting/program_formatter.h"
 #include "analyzer/input/files.h"
 #include "analyzer/revisions/same_behavior.h"
 #include "analyzer/transforming/transform.h"
 #include "analyzer/transforming/transform_request.h"
+#include "analyzer/translation/translator.h"
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/command_line/progress.h"
@@ -59,6 +62,9 @@ struct FormatCommandOptions {
   transforming::TransformRequest transform;
   configuration::ConfigurationSource source;
   std::string stdin_name = "<stdin>";
+  std::string from;  // Empty, like the next two: nothing is translated.
+  std::string map;
+  std::vector<std::string> zeros;
 
   /// Whether one of them asks for another way of writing, or for its proof.
   bool changes_style() const {
@@ -92,6 +98,13 @@ constexpr Text kNotVerified{"not formatted, since it is not certain that it does
                             "non formattato, perché non è certo che faccia lo stesso: {}"};
 constexpr Text kWouldBeChanged{"{} of {} programs would be changed", "programmi da modificare: {} di {}"};
 constexpr Text kWereChanged{"{} of {} programs changed", "programmi modificati: {} di {}"};
+
+constexpr Text kOneTranslation{"--from takes one program, not {}", "--from vuole un solo programma, non {}"};
+constexpr Text kNoZero{"--zero takes a zero point in machine coordinates, such as G54=350,220,-185.5, not {}",
+                       "--zero vuole un'origine in coordinate di macchina, come G54=350,220,-185.5, non {}"};
+constexpr Text kStopsTranslation{"not translated: the control would stop at {} of the translation, {}",
+                                 "non tradotto: il controllo si fermerebbe a {} della traduzione, {}"};
+constexpr Text kTranslated{"places left as comments: {}", "punti rimasti come commenti: {}"};
 
 /// Reads a start and a step, such as 10:10; the step must be at least 1.
 std::optional<formatting::NumberStyle> read_numbers(std::string_view text) {
@@ -338,6 +351,95 @@ class FormatRun {
   bool failed_ = false;
 };
 
+/// Translates one program, prints it, and reports what it could not say.
+class TranslationCommand {
+ public:
+  TranslationCommand(const FormatCommandOptions& options, const FileSettings& settings)
+      : options_(options), settings_(settings), language_(options.reader_language()) {}
+
+  ExitStatus run(const std::filesystem::path& file) {
+    if (!read_setup()) return ExitStatus::Failure;
+    const bool from_stdin = file == "-";
+    const std::string name = from_stdin ? options_.stdin_name : file.generic_string();
+    const auto opened =
+        from_stdin ? SourceFile::read_stream(system::kStandardInput, language_) : SourceFile::open(file, language_);
+    if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);
+    const translation::Translation translation = translation::translate(std::get<SourceFile>(opened).text(), setup_);
+    if (translation.refusal) {
+      report(name, *translation.refusal);
+      return ExitStatus::Failure;
+    }
+    formatting::ProgramFormatter formatter(translation.program, settings_.style);
+    std::string formatted;
+    while (const auto piece = formatter.next()) formatted += piece->after;
+    if (const auto why = first_error(formatted)) return fail(name, *why);
+    for (const translation::TranslationFinding& finding : translation.findings) report(name, finding);
+    if (!translation.findings.empty())
+      std::cerr << dialect::format(kTranslated, language_, translation.findings.size()) << '\n';
+    system::OutputFile output{system::kStandardOutput};
+    output.write(formatted);
+    if (output.flush() != 0) return fail("<stdout>", system::cannot_write(output.error(), language_));
+    return translation.findings.empty() ? ExitStatus::Success : ExitStatus::Findings;
+  }
+
+ private:
+  ExitStatus fail(std::string_view name, std::string_view why) const {
+    complain(fmt::format("{}: {}", text::printable(name), why));
+    return ExitStatus::Failure;
+  }
+
+  void report(std::string_view name, const translation::TranslationFinding& finding) const {
+    std::cerr << fmt::format("{}:{}:{}: {}\n", text::printable(name), finding.line, finding.column,
+                             finding.message(language_));
+  }
+
+  /// Takes the map, the zero points of the command, which outweigh it, and the machine's own.
+  bool read_setup() {
+    setup_.control = *translation::control_named(options_.from);
+    setup_.language = language_;
+    setup_.home = settings_.machine.setup.home.tip;
+    setup_.arc_tolerance = settings_.machine.setup.arc_tolerance;
+    if (const auto& functions = settings_.machine.setup.functions)
+      setup_.named_functions.insert(functions->begin(), functions->end());
+    if (!options_.map.empty()) {
+      auto map = translation::load_translation_map(options_.map, language_);
+      if (const auto* messages = std::get_if<std::string>(&map)) {
+        std::cerr << *messages << '\n';
+        return false;
+      }
+      setup_.map = std::move(std::get<translation::TranslationMap>(map));
+    }
+    for (const std::string& text : options_.zeros) {
+      const auto zero = translation::read_zero_option(text);
+      if (!zero) {
+        complain(dialect::format(kNoZero, language_, text::printable(text)));
+        return false;
+      }
+      setup_.map.zeros[zero->first] = zero->second;
+    }
+    return true;
+  }
+
+  /// Why the control would stop, as with a tool that the machine does not have; nothing is written then.
+  std::optional<std::string> first_error(std::string_view program) const {
+    const check::Report found = check::check_text(program, {.machine = settings_.machine.setup});
+    for (const check::LocatedFinding& located : found.findings) {
+      if (located.severity() != dialect::Severity::Error) continue;
+      std::string_view rest = program;
+      for (std::size_t line = 0; line < located.line; ++line) rest.remove_prefix(rest.find('\n') + 1);
+      const std::string_view line = rest.substr(0, rest.find_first_of("\r\n"));
+      const std::string what = formats::message_of(located, found, line, language_);
+      return dialect::format(kStopsTranslation, language_, fmt::format("{} ({})", located.line + 1, line), what);
+    }
+    return std::nullopt;
+  }
+
+  const FormatCommandOptions& options_;
+  const FileSettings& settings_;
+  const Language language_;
+  translation::TranslationSetup setup_;
+};
+
 /// Formats the files. The first path's configuration decides the language: a command uses one language.
 ExitStatus format(FormatCommandOptions options) {
   configuration::Configurations configurations(options.source, options.reader_language());
@@ -357,6 +459,12 @@ ExitStatus format(FormatCommandOptions options) {
   if (!mistakes.empty()) return ExitStatus::Failure;
   for (const std::string& problem : selection.problems) complain(problem);
   if (selection.is_refused) return ExitStatus::Failure;
+  if (!options.from.empty()) {
+    if (selection.problems.empty() && selection.files.size() == 1)
+      return TranslationCommand(options, settings.front()).run(selection.files.front());
+    if (selection.problems.empty()) complain(dialect::format(kOneTranslation, language, selection.files.size()));
+    return ExitStatus::Failure;
+  }
   if (options.mode() == OutputMode::Stdout && selection.files.size() > 1) {
     complain(dialect::format(kOneProgram, language, selection.files.size()));
     return ExitStatus::Failure;
@@ -430,11 +538,30 @@ void add_options(command_line::ProgramApp& program, FormatCommandOptions& option
                    {"With --renumber: on every line with a block", "Con --renumber: su ogni linea con un blocco"});
 
   add_transform_options(program, options.transform);
+  program.begin_group({"Programs of other controls", "Programmi di altri controlli"});
+  const command_line::ProgramOption from =
+      program.add_choice("--from", options.from, {"fanuc", "linuxcnc", "grbl"}, {"CONTROL", "CONTROLLO"},
+                         {"Translate a program of this control, and print it:\nfanuc, linuxcnc or grbl",
+                          "Traduce un programma di questo controllo, e lo\nstampa: fanuc, linuxcnc o grbl"});
+  for (const command_line::ProgramOption& mode : {modes[0], modes[1], modes[3]}) from.excludes(mode);
+  program
+      .add_option("--map", options.map, command_line::kFileValue,
+                  {"What its machine knows: tools, zero points, M\nfunctions, as JSON",
+                   "Ciò che sa la sua macchina: utensili, origini,\nfunzioni M, in JSON"})
+      .needs(from);
+  program
+      .add_option("--zero", options.zeros, {"G54=X,Y,Z", "G54=X,Y,Z"},
+                  {"A zero point, in machine coordinates and mm", "Un'origine, in coordinate di macchina e mm"})
+      .takes_one()
+      .needs(from);
 
   program.begin_group({"How it is run", "Esecuzione"});
-  program.add_flag("--verify", options.verify,
-                   {"Run both texts, and format only what does the same",
-                    "Esegue i due testi, e formatta solo ciò che fa lo\nstesso"});
+  program
+      .add_flag("--verify", options.verify,
+                {"Run both texts, and format only what does the same",
+                 "Esegue i due testi, e formatta solo ciò che fa lo\nstesso"})
+      .excludes(from)
+      .without_exclusions();
   program.add_option("--stdin-filename", options.stdin_name, {"NAME", "NOME"},
                      {"What to call standard input", "Come chiamare lo standard input"});
   program.add_language(options.language,
@@ -466,17 +593,23 @@ ExitStatus run_main(int argc, char** argv) {
                       {"A program that is rewritten in place is either the old or the new one, whole, whatever happens "
                        "meanwhile.",
                        "Un programma riscritto sul posto è quello vecchio o quello nuovo, sempre intero, qualunque "
-                       "cosa succeda nel frattempo."}},
+                       "cosa succeda nel frattempo."},
+                      {"With --from, isofmt translates a program of another control. What cannot be said in this "
+                       "dialect stays as a comment, and is reported with its line and the reason.",
+                       "Con --from isofmt traduce un programma di un altro controllo. Ciò che in questo dialetto non "
+                       "si può dire resta come commento, e viene segnalato con la linea e la ragione."}},
        .exit =
            {{"0",
              {"Done; with --check and --diff, nothing would be changed.",
               "Fatto; con --check e --diff: non c'è nulla da cambiare."}},
             {"1",
-             {"With --check or --diff: a program would be changed.",
-              "Con --check o --diff: c'è un programma da cambiare."}},
+             {"With --check or --diff: a program would be changed. With --from: something is left as a comment.",
+              "Con --check o --diff: c'è un programma da cambiare. Con --from: qualcosa è rimasto come commento."}},
             {"2",
-             {"A mistake in the command or in an isocnc.json, or something could not be read or written.",
-              "Un errore nel comando o in un isocnc.json, oppure qualcosa che non si è potuto leggere o scrivere."}}},
+             {"A mistake in the command, in an isocnc.json or in a map, or something could not be read, translated or "
+              "written.",
+              "Un errore nel comando, in un isocnc.json o in una mappa, oppure qualcosa che non si è potuto leggere, "
+              "tradurre o scrivere."}}},
        .see_also = {"isolint", "isorun"}});
   add_options(program, options);
   if (const auto status = program.answer(argc, argv)) return *status;

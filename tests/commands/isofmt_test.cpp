@@ -131,6 +131,67 @@ TEST(Isofmt, ProvesThatTheMachineDoesTheSame) {
   EXPECT_THAT(examples.err, HasSubstr("5 of 5 programs changed"));
 }
 
+TEST(Isofmt, TranslatesAProgramOfAnotherControl) {
+  const support::TemporaryFolder folder;
+  folder.write("part.nc", "%\nO1\nG21 G54 G90\nT1 M6\ng0x0.y0.z5.\nG2 X20. I10. F900.\nM8\nM30\n%\n");
+  folder.write("map.json", R"({"tools": {"1": "101001"}, "functions": {"M08": "M108"}})");
+  const std::vector<std::string> command = {"isofmt", "--from", "fanuc", "--map", "map.json", "part.nc"};
+  std::vector<std::string> with_zero = command;
+  with_zero.insert(with_zero.end(), {"--zero", "G54=1,2.5,-3", "--g-digits", "1"});
+  const CommandResult whole = run_command(with_zero, {.folder = folder.path()});
+  EXPECT_EQ(whole.status, 0);
+  EXPECT_EQ(whole.err, "");
+  EXPECT_EQ(whole.out,
+            "(O1)\nG71 G90\nM06 T101001\nG92 X1 Y2.5 Z-3\nG0 X0. Y0. Z5.\nG2 X20. I10 J0 F900.\nM108\nM02\n");
+  const CommandResult partly = run_command(command, {.folder = folder.path()});
+  EXPECT_EQ(partly.status, 1);
+  EXPECT_THAT(partly.err, StartsWith("part.nc:3:5: where is the zero point of G54, in machine coordinates?"));
+  EXPECT_THAT(partly.out, HasSubstr("; NOT TRANSLATED: g0x0.y0.z5.\n"));
+  std::vector<std::string> italian = command;
+  italian.insert(italian.end(), {"--lang", "it"});
+  EXPECT_THAT(run_command(italian, {.folder = folder.path()}).out, HasSubstr("; NON TRADOTTO: G2 X20. I10. F900.\n"));
+}
+
+TEST(Isofmt, RefusesToTranslateWhatCannotBeRight) {
+  const support::TemporaryFolder folder;
+  folder.write("part.nc", "T1 M6\nG0 X1. Y0. Z5.\nM30\n");
+  folder.write("whole.nc", "T1 M6\nG0 X1000 Y0 Z5\nM30\n");
+  folder.write("map.json", R"({"tools": {"1": "101001"}, "zeros": {"G54": [0, 0, 0]}})");
+  folder.write("twice.json", "{\n  \"tools\": {\"1\": \"101001\",\n            \"2\": \"101001\"}\n}\n");
+  folder.write("machine.json", R"({"machine": {"tools": []}})");
+  std::string binary("G0 X1\0\0", 7);
+  folder.write("binary.nc", binary);
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  for (const auto& [arguments, message] : std::vector<Case>{
+           {{"--map", "twice.json", "part.nc"}, "twice.json:3:18: error: tools.2: tool 1 is at 101001 already"},
+           {{"--map", "none.json", "part.nc"}, "isofmt: none.json: "},
+           {{"--map", ".", "part.nc"}, "isofmt: .: not a file"},
+           {{"--map", "map.json", "whole.nc"}, "whole.nc:2:4: X1000 has no decimal point"},
+           {{"--map", "map.json", "--config", "machine.json", "part.nc"}, "the control would stop at 1 (M06 T101001)"},
+           {{"--zero", "G54=1,2", "part.nc"}, "--zero takes a zero point"},
+           {{"--check", "part.nc"}, "--check"},
+           {{"-i", "part.nc"}, "--in-place"},
+           {{"--verify", "part.nc"}, "--verify"},
+           {{"part.nc", "whole.nc"}, "--from takes one program, not 2"},
+           {{"binary.nc"}, "binary.nc: "},
+           {{"none.nc"}, "none.nc: "},
+       }) {
+    std::vector<std::string> command = {"isofmt", "--lang", "en", "--from", "fanuc"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const CommandResult result = run_command(command, {.folder = folder.path()});
+    EXPECT_EQ(result.status, 2) << message;
+    EXPECT_EQ(result.out, "") << message;
+    EXPECT_THAT(result.err, HasSubstr(message));
+  }
+  EXPECT_EQ(text_of_file(folder.path("part.nc")), "T1 M6\nG0 X1. Y0. Z5.\nM30\n");
+  const CommandResult alone = run_command({"isofmt", "--map", "map.json", "part.nc"}, {.folder = folder.path()});
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.err, HasSubstr("--from"));
+}
+
 TEST(Isofmt, WantsAModeForSeveralPrograms) {
   const support::TemporaryFolder folder;
   folder.write("a.iso", kUntidy);
