@@ -6,7 +6,7 @@
 
 namespace isocnc::translation {
 
-using Reason = UntranslatableReason;
+using Untranslatable = UntranslatableReason;
 using enum ForeignRole;
 
 static constexpr double kLargestNumber = 1e9;
@@ -16,7 +16,7 @@ static std::string quoted(const ForeignBlock& block, std::size_t at, std::size_t
   return text::printable(block.text.substr(at, std::min(end - at, kLongestQuote)));
 }
 
-static BlockRefusal refusal_at(const ForeignBlock& block, Reason reason, const ForeignWord& word) {
+static BlockRefusal refusal_at(const ForeignBlock& block, Untranslatable reason, const ForeignWord& word) {
   return {reason, word.at, {quoted(block, word.at, word.end)}};
 }
 
@@ -24,11 +24,11 @@ static BlockRefusal refusal_at(const ForeignBlock& block, Reason reason, const F
 std::optional<BlockRefusal> TranslationRun::find_refusal(CurrentBlock& current) {
   const ForeignBlock& block = current.block;
   std::optional<BlockRefusal> refusal = classify_words(current);
-  if (block.skip_at) return BlockRefusal{Reason::SkippedBlock, *block.skip_at, {}};
+  if (block.skip_at) return BlockRefusal{Untranslatable::SkippedBlock, *block.skip_at, {}};
   if (block.oddity != BlockOddity::None) {
-    const Reason reason = block.oddity == BlockOddity::Assignment  ? Reason::Assignment
-                          : block.oddity == BlockOddity::Statement ? Reason::Statement
-                                                                   : Reason::Unreadable;
+    const Untranslatable reason = block.oddity == BlockOddity::Assignment  ? Untranslatable::Assignment
+                                  : block.oddity == BlockOddity::Statement ? Untranslatable::Statement
+                                                                           : Untranslatable::Unreadable;
     // One finding for all variables and statements: what differs is in the comment.
     return BlockRefusal{reason, block.oddity_at, {quoted(block, block.oddity_at, block.oddity_end)}};
   }
@@ -39,7 +39,7 @@ std::optional<BlockRefusal> TranslationRun::find_refusal(CurrentBlock& current) 
 
 std::optional<BlockRefusal> TranslationRun::classify_words(CurrentBlock& current) const {
   std::optional<BlockRefusal> first;
-  const auto fail = [&](Reason reason, const ForeignWord& word) {
+  const auto fail = [&](Untranslatable reason, const ForeignWord& word) {
     if (!first) first = refusal_at(current.block, reason, word);
   };
   std::set<char> seen;
@@ -47,25 +47,25 @@ std::optional<BlockRefusal> TranslationRun::classify_words(CurrentBlock& current
   for (const ForeignWord& word : current.words) {
     const bool is_code = word.letter == 'G' || word.letter == 'M';
     if (word.is_formula)
-      fail(Reason::Formula, word);
+      fail(Untranslatable::Formula, word);
     else if (!is_code && std::abs(word.value) > kLargestNumber)
-      fail(Reason::NumberTooLarge, word);
+      fail(Untranslatable::NumberTooLarge, word);
     else if (!is_code && !seen.insert(word.letter).second)
-      fail(Reason::WordTwice, word);
+      fail(Untranslatable::WordTwice, word);
     if (word.letter == 'T' && !(word.value >= 0 && word.value == std::floor(word.value)))
-      fail(Reason::UnknownWord, word);
+      fail(Untranslatable::UnknownWord, word);
     if (word.letter == 'G') {
       const int tenths = word.tenths();
       const ForeignRole role = tenths < 0 ? Unknown : foreign_role(tenths, setup_.control);
       current.gs.emplace_back(tenths, role);
       const bool moves = role == Motion || role == Cycle;
-      if (moves && std::exchange(has_motion, true)) fail(Reason::UnknownWord, word);
-      if (role == Unknown) fail(Reason::UnknownG, word);
-      if (role == CycleUnknown) fail(Reason::CycleUnknown, word);
+      if (moves && std::exchange(has_motion, true)) fail(Untranslatable::UnknownWord, word);
+      if (role == Unknown) fail(Untranslatable::UnknownG, word);
+      if (role == CycleUnknown) fail(Untranslatable::CycleUnknown, word);
     } else if (word.letter == 'M') {
       const int tenths = word.tenths();
       if (tenths % 10 != 0 || tenths < 0 || tenths >= 10'000)
-        fail(Reason::UnknownWord, word);
+        fail(Untranslatable::UnknownWord, word);
       else
         current.ms.push_back(tenths / 10);
     }
@@ -123,8 +123,8 @@ std::optional<BlockRefusal> TranslationRun::check_letters(CurrentBlock& current)
   for (const ForeignWord& word : current.words) {
     if (letters.find(word.letter) != std::string::npos) continue;
     const bool is_rotary = word.letter >= 'A' && word.letter <= 'C';
-    if (is_rotary) return BlockRefusal{Reason::RotaryAxis, word.at, {std::string(1, word.letter)}};
-    return refusal_at(current.block, Reason::UnknownWord, word);
+    if (is_rotary) return BlockRefusal{Untranslatable::RotaryAxis, word.at, {std::string(1, word.letter)}};
+    return refusal_at(current.block, Untranslatable::UnknownWord, word);
   }
   return std::nullopt;
 }
@@ -143,7 +143,7 @@ std::optional<BlockRefusal> TranslationRun::count_thousandths(CurrentBlock& curr
     const bool is_length = std::string_view("XYZUIJKRQ").find(word.letter) != std::string_view::npos;
     if (!is_length || word.has_point || word.value == 0 || (word.letter == 'K' && is_cycle)) continue;
     if (!setup_.map.counts_thousandths) {
-      refusal_ = TranslationFinding{.reason = Reason::WholeNumber,
+      refusal_ = TranslationFinding{.reason = Untranslatable::WholeNumber,
                                     .line = current.line + 1,
                                     .column = text::column_of(current.block.text, word.at),
                                     .values = {quoted(current.block, word.at, word.end)}};

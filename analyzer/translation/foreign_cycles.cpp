@@ -7,7 +7,7 @@
 
 namespace isocnc::translation {
 
-using Reason = UntranslatableReason;
+using Untranslatable = UntranslatableReason;
 using enum ForeignRole;
 
 static constexpr char kCycleAxes[] = {'X', 'Y', 'Z'};
@@ -24,19 +24,20 @@ void TranslationRun::drill(CurrentBlock& current) {
   const std::size_t at = current.words.front().at;
   const auto axis = static_cast<std::size_t>(plane.normal);
   if (!place_.known[axis])
-    return refuse_motion(current, BlockRefusal{Reason::PlaceUnknown, at, {name, std::string(1, kCycleAxes[axis])}});
+    return refuse_motion(current,
+                         BlockRefusal{Untranslatable::PlaceUnknown, at, {name, std::string(1, kCycleAxes[axis])}});
   if (!read_cycle(current)) return;
   apply_feed(current);
-  if (now_.inverse_time || !feed_) return refuse_motion(current, BlockRefusal{Reason::FeedMissing, at, {}});
+  if (now_.inverse_time || !feed_) return refuse_motion(current, BlockRefusal{Untranslatable::FeedMissing, at, {}});
   const ForeignWord* repeats = current.find('L');
   if (repeats == nullptr && setup_.control == SourceControl::Fanuc) repeats = current.find('K');
   const double holes = repeats == nullptr ? 1 : repeats->value;
   if (!(holes >= 0 && holes <= kMaxHoles))
-    return refuse_motion(current,
-                         BlockRefusal{Reason::CycleTooManyMoves, repeats->at, {repeats->letter + repeats->digits}});
+    return refuse_motion(
+        current, BlockRefusal{Untranslatable::CycleTooManyMoves, repeats->at, {repeats->letter + repeats->digits}});
   const double pecks = cycle_.peck ? (*cycle_.r - *cycle_.bottom) / *cycle_.peck : 1;
   if (!may_expand(holes * (3 * pecks + 3)))
-    return refuse_motion(current, BlockRefusal{Reason::CycleTooManyMoves, at, {name}});
+    return refuse_motion(current, BlockRefusal{Untranslatable::CycleTooManyMoves, at, {name}});
   mount_selected_frame();
   flush_words(current);
   write_settings();
@@ -60,26 +61,27 @@ bool TranslationRun::read_cycle(CurrentBlock& current) {
   if (cycle_.g == 0) cycle_.initial = level;
   if (cycle_.g != motion_ && !is_fanuc) cycle_ = {.initial = cycle_.initial};
   cycle_.g = motion_;
-  const auto refused = [&](Reason reason, std::size_t at, std::vector<std::string> values) {
+  const auto refused = [&](Untranslatable reason, std::size_t at, std::vector<std::string> values) {
     refuse_motion(current, BlockRefusal{reason, at, std::move(values)});
     return false;
   };
   const std::size_t at = current.words.front().at;
   if (const ForeignWord* const r = current.find('R'))
     cycle_.r = length_of(*r) + (now_.incremental ? (is_fanuc ? cycle_.initial : level) : 0);
-  if (!cycle_.r) return refused(Reason::CycleIncomplete, at, {"R"});
+  if (!cycle_.r) return refused(Untranslatable::CycleIncomplete, at, {"R"});
   if (const ForeignWord* const z = current.find(kCycleAxes[plane.normal]))
     cycle_.bottom = length_of(*z) + (now_.incremental ? *cycle_.r : 0);
-  if (!cycle_.bottom) return refused(Reason::CycleIncomplete, at, {std::string(1, kCycleAxes[plane.normal])});
+  if (!cycle_.bottom) return refused(Untranslatable::CycleIncomplete, at, {std::string(1, kCycleAxes[plane.normal])});
   if (const ForeignWord* const q = current.find('Q')) cycle_.peck = std::abs(length_of(*q));
   if (const ForeignWord* const p = current.find('P')) cycle_.dwell = is_fanuc ? p->value / 1000 : p->value;
-  if (*cycle_.bottom > *cycle_.r) return refused(Reason::CycleDepth, at, {});
+  if (*cycle_.bottom > *cycle_.r) return refused(Untranslatable::CycleDepth, at, {});
   const bool pecks = motion_ == 83 || motion_ == 73;
   if (!pecks) cycle_.peck.reset();
-  if (pecks && !(cycle_.peck && *cycle_.peck > 0)) return refused(Reason::CycleIncomplete, at, {"Q"});
+  if (pecks && !(cycle_.peck && *cycle_.peck > 0)) return refused(Untranslatable::CycleIncomplete, at, {"Q"});
   if (pecks && (*cycle_.r - *cycle_.bottom) / *cycle_.peck > kMaxPecks) {
     const ForeignWord* const q = current.find('Q');
-    return refused(Reason::CycleTooManyMoves, q != nullptr ? q->at : at, {"Q" + written_number(*cycle_.peck / unit())});
+    return refused(Untranslatable::CycleTooManyMoves, q != nullptr ? q->at : at,
+                   {"Q" + written_number(*cycle_.peck / unit())});
   }
   return true;
 }

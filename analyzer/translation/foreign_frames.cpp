@@ -7,7 +7,7 @@
 namespace isocnc::translation {
 
 using geometry::Vec3;
-using Reason = UntranslatableReason;
+using Untranslatable = UntranslatableReason;
 using enum ForeignRole;
 
 static constexpr char kFrameAxes[] = {'X', 'Y', 'Z'};
@@ -69,9 +69,10 @@ void TranslationRun::select_zero(CurrentBlock& current, int name) {
   if (frames_.has_zero()) return;
   const std::string text = zero_text(name);
   for (const ForeignWord& word : current.words)
-    if (word.letter == 'G' && word.tenths() == name) report(current, {Reason::ZeroPointMissing, word.at, {text}});
+    if (word.letter == 'G' && word.tenths() == name)
+      report(current, {Untranslatable::ZeroPointMissing, word.at, {text}});
   current.remark += (current.remark.empty() ? "" : " ") + text;
-  said_once_.insert(Reason::ZeroPointMissing);
+  said_once_.insert(Untranslatable::ZeroPointMissing);
 }
 
 void TranslationRun::set_local_shift(const CurrentBlock& current) {
@@ -89,10 +90,10 @@ void TranslationRun::set_position(CurrentBlock& current) {
     frame_is_wrong_ = true;
   };
   const ForeignWord& g92 = *current.find('G');
-  if (frames_.rotation) return give_up({Reason::UnknownG, g92.at, {"G92"}});
+  if (frames_.rotation) return give_up({Untranslatable::UnknownG, g92.at, {"G92"}});
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const ForeignWord* const word = current.find(kFrameAxes[axis]); word != nullptr && !place_.known[axis])
-      return give_up({Reason::PlaceUnknown, word->at, {"G92", std::string(1, word->letter)}});
+      return give_up({Untranslatable::PlaceUnknown, word->at, {"G92", std::string(1, word->letter)}});
   for (int axis = 0; axis < 3; ++axis) {
     const ForeignWord* const word = current.find(kFrameAxes[axis]);
     if (word == nullptr) continue;
@@ -120,13 +121,13 @@ void TranslationRun::set_data(CurrentBlock& current) {
   const ForeignWord& g10 = *current.find('G');
   const bool is_known_form =
       is_zero && number >= (is_fanuc ? 1 : 0) && number <= last && (r == nullptr || r->value == 0);
-  if (!is_known_form) return give_up({Reason::UnknownG, g10.at, {l == nullptr ? "G10" : "G10 L" + l->digits}});
+  if (!is_known_form) return give_up({Untranslatable::UnknownG, g10.at, {l == nullptr ? "G10" : "G10 L" + l->digits}});
   const std::optional<Vec3> old = frames_.zero(name);
   Vec3 zero = old.value_or(Vec3::Zero());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const ForeignWord* const word = current.find(kFrameAxes[axis]);
     const auto i = static_cast<Eigen::Index>(axis);
-    if (word == nullptr && !old) return give_up({Reason::ZeroPointMissing, g10.at, {zero_text(name)}});
+    if (word == nullptr && !old) return give_up({Untranslatable::ZeroPointMissing, g10.at, {zero_text(name)}});
     if (word == nullptr) continue;
     if (!by_place) {
       zero[i] = length_of(*word) + (is_fanuc && now_.incremental ? zero[i] : 0);
@@ -134,7 +135,7 @@ void TranslationRun::set_data(CurrentBlock& current) {
     }
     const KnownPlace machine = frames_.to_machine(place_);
     if (!machine.known[axis])
-      return give_up({Reason::PlaceUnknown, word->at, {"G10 L20", std::string(1, word->letter)}});
+      return give_up({Untranslatable::PlaceUnknown, word->at, {"G10 L20", std::string(1, word->letter)}});
     zero[i] = machine.at[i] - frames_.local[i] - frames_.shift[i] - length_of(*word);
   }
   if (name == frames_.selected)
@@ -155,7 +156,7 @@ void TranslationRun::set_rotation(CurrentBlock& current) {
   const std::optional<double> v = center(plane.v);
   const bool is_sayable = r != nullptr && !now_.incremental && !frames_.rotation && u && v;
   if (!is_sayable) {
-    report(current, Reason::UnknownG, *current.find('G'));
+    report(current, Untranslatable::UnknownG, *current.find('G'));
     suspended_by_.insert(Rotation);
     return keep_as_comment(current);
   }
@@ -208,7 +209,7 @@ void TranslationRun::go_to_reference(CurrentBlock& current, int name) {
   const bool is_further = p != nullptr && p->value != 2;
   const bool is_given = !is_further && (found != setup_.map.references.end() || name == 280);
   if (!is_given) {
-    report(current, {Reason::ReferenceMissing, current.find('G')->at, {fmt::format("G{}", name / 10)}});
+    report(current, {Untranslatable::ReferenceMissing, current.find('G')->at, {fmt::format("G{}", name / 10)}});
     keep_as_comment(current);
     return lose(current, !current.has_any("XYZ"));
   }

@@ -10,7 +10,7 @@
 namespace isocnc::translation {
 
 using geometry::Vec3;
-using Reason = UntranslatableReason;
+using Untranslatable = UntranslatableReason;
 using enum ForeignRole;
 
 static constexpr char kMotionAxes[] = {'X', 'Y', 'Z'};
@@ -36,7 +36,7 @@ void TranslationRun::add_motion(CurrentBlock& current) {
     return std::string_view("GXYZIJKR").find(word.letter) != std::string_view::npos;
   });
   if (current.has(MachineCoordinates)) return move_in_machine(current);
-  if (motion_ < 0) return refuse_motion(current, BlockRefusal{Reason::NoMotionInForce, first.at, {}});
+  if (motion_ < 0) return refuse_motion(current, BlockRefusal{Untranslatable::NoMotionInForce, first.at, {}});
   if (holds_cycle()) return drill(current);
   if (motion_ >= 2) return move_along_arc(current);
   move_straight(current);
@@ -51,20 +51,21 @@ bool TranslationRun::may_move(CurrentBlock& current, bool feeds) {
   const std::size_t at = current.words.empty() ? 0 : current.words.front().at;
   if (!has_tool(current)) return false;
   if (!frames_.has_zero()) {
-    const bool is_first = said_once_.insert(Reason::ZeroPointMissing).second;
-    return refused(is_first ? std::optional(BlockRefusal{Reason::ZeroPointMissing, at, {"G54"}}) : std::nullopt);
+    const bool is_first = said_once_.insert(Untranslatable::ZeroPointMissing).second;
+    return refused(is_first ? std::optional(BlockRefusal{Untranslatable::ZeroPointMissing, at, {"G54"}})
+                            : std::nullopt);
   }
   const auto stops_motions = [&](ForeignRole role) { return role != SurfaceSpeed && (role != PerTurn || feeds); };
   if (frame_is_wrong_ || std::any_of(suspended_by_.begin(), suspended_by_.end(), stops_motions)) return refused({});
   const ForeignWord* const z = current.find('Z');
-  if (length_off_ && z != nullptr) return refused(BlockRefusal{Reason::LengthOff, z->at, {}});
+  if (length_off_ && z != nullptr) return refused(BlockRefusal{Untranslatable::LengthOff, z->at, {}});
   if (!turned_by_.empty()) {
     const bool gives_both = !now_.incremental && current.find(kMotionAxes[turned_plane_.u]) != nullptr &&
                             current.find(kMotionAxes[turned_plane_.v]) != nullptr;
-    if (!gives_both) return refused(BlockRefusal{Reason::AxesAfterRotation, at, {turned_by_}});
+    if (!gives_both) return refused(BlockRefusal{Untranslatable::AxesAfterRotation, at, {turned_by_}});
   }
   const bool is_lost = std::any_of(lost_.begin(), lost_.end(), [](bool lost) { return lost; });
-  if (is_lost && (feeds || now_.incremental)) return refused(BlockRefusal{Reason::LostPlace, at, {}});
+  if (is_lost && (feeds || now_.incremental)) return refused(BlockRefusal{Untranslatable::LostPlace, at, {}});
   turned_by_.clear();
   return true;
 }
@@ -77,20 +78,20 @@ bool TranslationRun::has_tool(CurrentBlock& current) {
     spindle_ = spindle;
   }
   if (tool_is_mounted_ && !tool_is_wrong_) return true;
-  const bool is_first = !tool_is_wrong_ && said_once_.insert(Reason::NoTool).second;
+  const bool is_first = !tool_is_wrong_ && said_once_.insert(Untranslatable::NoTool).second;
   const std::size_t at = current.words.empty() ? 0 : current.words.front().at;
-  refuse_motion(current, is_first ? std::optional(BlockRefusal{Reason::NoTool, at, {}}) : std::nullopt);
+  refuse_motion(current, is_first ? std::optional(BlockRefusal{Untranslatable::NoTool, at, {}}) : std::nullopt);
   return false;
 }
 
 /// G53: the block's coordinates are those of the machine.
 void TranslationRun::move_in_machine(CurrentBlock& current) {
   if (now_.incremental || motion_ < 0 || motion_ > 1)
-    return refuse_motion(current, BlockRefusal{Reason::MachineCoordinates, current.find('G')->at, {}});
+    return refuse_motion(current, BlockRefusal{Untranslatable::MachineCoordinates, current.find('G')->at, {}});
   if (!has_tool(current)) return;
   const bool is_lost = std::any_of(lost_.begin(), lost_.end(), [](bool lost) { return lost; });
   if (is_lost && motion_ == 1)
-    return refuse_motion(current, BlockRefusal{Reason::LostPlace, current.words.front().at, {}});
+    return refuse_motion(current, BlockRefusal{Untranslatable::LostPlace, current.words.front().at, {}});
   std::string words = axis_words(current);
   if (motion_ == 1 && !take_feed(current, words)) return;
   KnownPlace machine = frames_.to_machine(place_);
@@ -124,16 +125,16 @@ void TranslationRun::move_along_arc(CurrentBlock& current) {
   const ForeignWord* const p = current.find('P');
   const double turns = p == nullptr ? 1 : p->value;
   if (!(turns >= 1 && turns <= kMaxTurns && turns == std::floor(turns)))
-    return refuse_motion(current, BlockRefusal{Reason::ArcTurns, p->at, {"P" + p->digits}});
+    return refuse_motion(current, BlockRefusal{Untranslatable::ArcTurns, p->at, {"P" + p->digits}});
   if (turns > 1 && !may_expand(turns))
-    return refuse_motion(current, BlockRefusal{Reason::CycleTooManyMoves, p->at, {"P" + p->digits}});
+    return refuse_motion(current, BlockRefusal{Untranslatable::CycleTooManyMoves, p->at, {"P" + p->digits}});
   const auto is_known = [&](int axis) { return place_.known[static_cast<std::size_t>(axis)]; };
   const bool is_plain_radius = r != nullptr && r->value > 0 && turns == 1 && !current.has_any("IJK");
   const bool needs_start = turns > 1 || !(is_plain_radius || (now_.incremental && !centers_absolute_));
   if (needs_start && !(is_known(plane.u) && is_known(plane.v))) {
     const char unknown = kMotionAxes[is_known(plane.u) ? plane.v : plane.u];
-    return refuse_motion(current,
-                         BlockRefusal{Reason::ArcStartUnknown, current.words.front().at, {std::string(1, unknown)}});
+    return refuse_motion(
+        current, BlockRefusal{Untranslatable::ArcStartUnknown, current.words.front().at, {std::string(1, unknown)}});
   }
   const bool is_measurable = now_.incremental || (is_known(plane.u) && is_known(plane.v));
   Vec3 center = Vec3::Zero();
@@ -146,7 +147,7 @@ void TranslationRun::move_along_arc(CurrentBlock& current) {
   const bool names_end = current.find(kMotionAxes[plane.u]) != nullptr || current.find(kMotionAxes[plane.v]) != nullptr;
   if (is_plain_radius) {
     words += " R" + r->digits;
-    if (!names_end) return refuse_motion(current, BlockRefusal{Reason::CenterMissing, r->at, {}});
+    if (!names_end) return refuse_motion(current, BlockRefusal{Untranslatable::CenterMissing, r->at, {}});
     if (!take_feed(current, words)) return;
     mount_selected_frame();
     write_motion(current, motion_, words);
@@ -191,10 +192,10 @@ std::optional<Vec3> TranslationRun::arc_center(CurrentBlock& current, const Vec3
   const std::size_t at = current.words.front().at;
   const bool has_center = i != nullptr || j != nullptr;
   if (stray != nullptr && stray->value != 0)
-    return refused({Reason::UnknownWord, stray->at, {stray->letter + stray->digits}});
-  if (has_center && r != nullptr) return refused({Reason::UnknownWord, r->at, {"R" + r->digits}});
+    return refused({Untranslatable::UnknownWord, stray->at, {stray->letter + stray->digits}});
+  if (has_center && r != nullptr) return refused({Untranslatable::UnknownWord, r->at, {"R" + r->digits}});
   const bool is_incomplete = centers_absolute_ && (i == nullptr || j == nullptr);
-  if (r == nullptr && (!has_center || is_incomplete)) return refused({Reason::CenterMissing, at, {}});
+  if (r == nullptr && (!has_center || is_incomplete)) return refused({Untranslatable::CenterMissing, at, {}});
   const geometry::PlanePoint chord{end[plane.u] - start[plane.u], end[plane.v] - start[plane.v]};
   geometry::PlanePoint offset;
   if (r == nullptr) {
@@ -207,13 +208,14 @@ std::optional<Vec3> TranslationRun::arc_center(CurrentBlock& current, const Vec3
         {.end = chord, .center_u = offset.u, .center_v = offset.v, .counterclockwise = motion_ == 3},
         setup_.arc_tolerance);
     if (circle.problem != geometry::ArcProblem::None)
-      return refused({Reason::ArcMismatch, at, {written_number(circle.found, 4), written_number(circle.wanted, 4)}});
+      return refused(
+          {Untranslatable::ArcMismatch, at, {written_number(circle.found, 4), written_number(circle.wanted, 4)}});
   } else {
     const double radius = std::abs(length_of(*r));
     const double half = chord.norm() / 2;
-    if (half < geometry::kEqualCoordinate || radius == 0) return refused({Reason::CenterMissing, r->at, {}});
+    if (half < geometry::kEqualCoordinate || radius == 0) return refused({Untranslatable::CenterMissing, r->at, {}});
     if (half > radius + setup_.arc_tolerance)
-      return refused({Reason::ArcMismatch, r->at, {written_number(radius, 4), written_number(half, 4)}});
+      return refused({Untranslatable::ArcMismatch, r->at, {written_number(radius, 4), written_number(half, 4)}});
     const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
     const bool is_left = (motion_ == 3) == (r->value > 0);  // Of the chord, seen along it.
     const double aside = (is_left ? height : -height) / (2 * half);
@@ -248,7 +250,7 @@ void TranslationRun::write_turns(CurrentBlock& current, const Vec3& center, cons
 void TranslationRun::apply_feed(CurrentBlock& current) {
   const ForeignWord* const f = current.find('F');
   if (f == nullptr || now_.inverse_time || suspended_by_.contains(PerTurn)) return;
-  if (!(f->value > 0)) return leave_out(current, Reason::FeedNotPositive, *f);
+  if (!(f->value > 0)) return leave_out(current, Untranslatable::FeedNotPositive, *f);
   feed_ = length_of(*f);
   feed_digits_ = f->digits;
   feed_in_inches_ = now_.inches;
@@ -273,7 +275,7 @@ bool TranslationRun::take_feed(CurrentBlock& current, std::string& words) {
       return true;
     }
   }
-  refuse_motion(current, BlockRefusal{Reason::FeedMissing, at, {}});
+  refuse_motion(current, BlockRefusal{Untranslatable::FeedMissing, at, {}});
   return false;
 }
 

@@ -6,7 +6,7 @@
 
 namespace isocnc::translation {
 
-using Reason = UntranslatableReason;
+using Untranslatable = UntranslatableReason;
 using enum ForeignRole;
 
 static void append_word(std::string& words, std::string_view word) {
@@ -44,17 +44,17 @@ void TranslationRun::apply_modals(CurrentBlock& current) {
 void TranslationRun::apply_suspensions(CurrentBlock& current) {
   struct SuspensionRow {
     ForeignRole on, off;
-    Reason reason;
+    Untranslatable reason;
   };
   static constexpr SuspensionRow kRows[] = {
-      {Polar, PolarOff, Reason::PolarCoordinates},
-      {Scale, ScaleOff, Reason::ScaledOrMirrored},
-      {Mirror, MirrorOff, Reason::ScaledOrMirrored},
-      {Tilt, RotationOff, Reason::TiltedPlane},
-      {Diameter, Radius, Reason::DiameterMode},
-      {PerTurn, PerMinute, Reason::FeedPerTurn},
-      {SurfaceSpeed, TurnsPerMinute, Reason::SurfaceSpeed},
-      {LengthGiven, LengthOff, Reason::LengthGiven},
+      {Polar, PolarOff, Untranslatable::PolarCoordinates},
+      {Scale, ScaleOff, Untranslatable::ScaledOrMirrored},
+      {Mirror, MirrorOff, Untranslatable::ScaledOrMirrored},
+      {Tilt, RotationOff, Untranslatable::TiltedPlane},
+      {Diameter, Radius, Untranslatable::DiameterMode},
+      {PerTurn, PerMinute, Untranslatable::FeedPerTurn},
+      {SurfaceSpeed, TurnsPerMinute, Untranslatable::SurfaceSpeed},
+      {LengthGiven, LengthOff, Untranslatable::LengthGiven},
   };
   std::size_t place = 0;
   for (const ForeignWord& word : current.words) {
@@ -81,14 +81,14 @@ void TranslationRun::apply_offsets(CurrentBlock& current) {
   };
   const std::vector<std::string> mounted{fmt::format("T{}", tool_)};
   if (takes_length) {
-    if (is_of_other(h)) leave_out(current, Reason::ToolOffsetOfOther, *h, mounted);
+    if (is_of_other(h)) leave_out(current, Untranslatable::ToolOffsetOfOther, *h, mounted);
     length_active_ = true;
     length_off_ = false;
   } else if (ends_length) {
     length_off_ = length_off_ || length_active_;
     length_active_ = false;
   }
-  if (current.has(Compensation) && is_of_other(d)) leave_out(current, Reason::ToolOffsetOfOther, *d, mounted);
+  if (current.has(Compensation) && is_of_other(d)) leave_out(current, Untranslatable::ToolOffsetOfOther, *d, mounted);
   for (const auto& [tenths, role] : current.gs)
     if (role == Compensation || role == CompensationOff) compensation_ = tenths / 10;
 }
@@ -99,12 +99,12 @@ void TranslationRun::add_tool(CurrentBlock& current) {
   if (!has_function(current.ms, 6)) return;
   const ForeignWord& m06 = *std::find_if(current.words.begin(), current.words.end(),
                                          [](const ForeignWord& word) { return word.letter == 'M' && word.value == 6; });
-  if (prepared_tool_ < 0) return leave_out(current, Reason::ToolNumberMissing, m06);
+  if (prepared_tool_ < 0) return leave_out(current, Untranslatable::ToolNumberMissing, m06);
   const auto found = setup_.map.tools.find(prepared_tool_);
   const bool is_mapped = found != setup_.map.tools.end();
   tool_is_wrong_ = !is_mapped && prepared_tool_ != 0;
   if (tool_is_wrong_) {
-    report(current, {Reason::ToolUnmapped, (t != nullptr ? *t : m06).at, {fmt::format("T{}", prepared_tool_)}});
+    report(current, {Untranslatable::ToolUnmapped, (t != nullptr ? *t : m06).at, {fmt::format("T{}", prepared_tool_)}});
     append_word(current.remark, fmt::format("T{} M06", prepared_tool_));
     tool_ = -1;
     return;
@@ -128,7 +128,7 @@ void TranslationRun::add_spindle(CurrentBlock& current) {
   } else if (s != nullptr && s->value > 0) {
     current.before.push_back("S" + s->digits);
   } else if (s != nullptr && !stops) {
-    leave_out(current, Reason::SpeedNotPositive, *s);
+    leave_out(current, Untranslatable::SpeedNotPositive, *s);
   }
   for (const int m : current.ms) {
     if (m < 3 || m > 5) continue;
@@ -148,7 +148,7 @@ void TranslationRun::add_functions(CurrentBlock& current) {
     const auto found = setup_.map.functions.find(m);
     const bool is_named = found != setup_.map.functions.end() || setup_.named_functions.contains(m);
     if (!is_named) {
-      leave_out(current, Reason::UnnamedFunction, word);
+      leave_out(current, Untranslatable::UnnamedFunction, word);
       continue;
     }
     const int number = found != setup_.map.functions.end() ? found->second : m;
@@ -164,7 +164,7 @@ void TranslationRun::add_dwell(CurrentBlock& current) {
   for (const char letter : {'P', 'X', 'U'})
     if (seconds == nullptr) seconds = current.find(letter);
   if (seconds == nullptr || seconds->value < 0) {
-    report(current, {Reason::DwellMissing, 0, {is_fanuc ? "P, X, U" : "P"}});
+    report(current, {Untranslatable::DwellMissing, 0, {is_fanuc ? "P, X, U" : "P"}});
     return keep_as_comment(current);
   }
   const bool counts_milliseconds = is_fanuc && seconds->letter == 'P';

@@ -9,7 +9,7 @@
 namespace isocnc::translation {
 
 using dialect::Text;
-using Reason = UntranslatableReason;
+using Untranslatable = UntranslatableReason;
 using enum ForeignRole;
 
 namespace {
@@ -174,7 +174,7 @@ TranslationRun::BlockFlow TranslationRun::end_of_block(CurrentBlock& current, in
   for (const int m : current.ms) {
     if (m == 98) return call(current, depth);
     if (m == 99 && depth > 0) return BlockFlow::Return;
-    if (m == 99) report(current, Reason::EndlessProgram, *current.find('M'));
+    if (m == 99) report(current, Untranslatable::EndlessProgram, *current.find('M'));
     if (m == 2 || m == 30 || m == 99) {
       end_program();
       return BlockFlow::End;
@@ -187,13 +187,13 @@ TranslationRun::BlockFlow TranslationRun::call(CurrentBlock& current, int depth)
   const ForeignWord* const number = current.find('P');
   const ForeignWord* const times = current.find('L');
   const ForeignWord& m98 = *current.find('M');
-  const auto give_up = [&](Reason reason, const ForeignWord& word, std::vector<std::string> further) {
+  const auto give_up = [&](Untranslatable reason, const ForeignWord& word, std::vector<std::string> further) {
     report(current, reason, word, std::move(further));
     keep_as_comment(current);
     lose(current, true);
     return BlockFlow::Next;
   };
-  if (number == nullptr || !is_whole(*number)) return give_up(Reason::NoSubprogram, m98, {});
+  if (number == nullptr || !is_whole(*number)) return give_up(Untranslatable::NoSubprogram, m98, {});
   std::string digits = number->digits;
   std::size_t repeats = times != nullptr && times->value >= 1 ? static_cast<std::size_t>(times->value) : 1;
   if (times == nullptr && digits.size() > 4) {  // P0031000 calls O1000 three times.
@@ -203,8 +203,9 @@ TranslationRun::BlockFlow TranslationRun::call(CurrentBlock& current, int depth)
     digits.erase(0, digits.size() - 4);
   }
   const auto found = programs_.find(program_number(digits));
-  if (found == programs_.end()) return give_up(Reason::SubprogramMissing, *number, {});
-  if (depth == kDeepestCall) return give_up(Reason::SubprogramsTooDeep, *number, {std::to_string(kDeepestCall)});
+  if (found == programs_.end()) return give_up(Untranslatable::SubprogramMissing, *number, {});
+  if (depth == kDeepestCall)
+    return give_up(Untranslatable::SubprogramsTooDeep, *number, {std::to_string(kDeepestCall)});
   called_.insert(found->second);
   writer_.add_remark(without_blanks(current.block.text));
   writer_.end_block();
@@ -216,7 +217,7 @@ TranslationRun::BlockFlow TranslationRun::call(CurrentBlock& current, int depth)
   }
   writer_.begin_block("", {});
   if (has_called_too_much() && depth == 0)
-    return give_up(Reason::SubprogramsTooLong, *number, {std::to_string(kMaxCalledMegabytes)});
+    return give_up(Untranslatable::SubprogramsTooLong, *number, {std::to_string(kMaxCalledMegabytes)});
   return flow == BlockFlow::End ? BlockFlow::End : BlockFlow::Next;
 }
 
@@ -233,7 +234,7 @@ void TranslationRun::keep_rest(std::size_t from) {
     if (starts_program) is_called = called_.contains(line);
     if (is_called) continue;
     const CurrentBlock current{.block = block, .line = line, .words = block.words};
-    if (starts_program) report(current, Reason::OtherProgram, block.words.front());
+    if (starts_program) report(current, Untranslatable::OtherProgram, block.words.front());
     writer_.begin_block("", {});
     writer_.add_remark(text);
     writer_.end_block();
@@ -267,7 +268,7 @@ void TranslationRun::report(const CurrentBlock& current, BlockRefusal refusal) {
                  .values = std::move(refusal.values)});
 }
 
-void TranslationRun::report(const CurrentBlock& current, Reason reason, const ForeignWord& word,
+void TranslationRun::report(const CurrentBlock& current, Untranslatable reason, const ForeignWord& word,
                             std::vector<std::string> further) {
   static constexpr std::size_t kLongestWord = 40;
   const std::string_view written = current.block.text.substr(word.at, word.end - word.at);
@@ -276,7 +277,7 @@ void TranslationRun::report(const CurrentBlock& current, Reason reason, const Fo
 }
 
 /// Drops a word of a block that is translated otherwise.
-void TranslationRun::leave_out(CurrentBlock& current, Reason reason, const ForeignWord& word,
+void TranslationRun::leave_out(CurrentBlock& current, Untranslatable reason, const ForeignWord& word,
                                std::vector<std::string> further) {
   report(current, reason, word, std::move(further));
   if (!current.remark.empty()) current.remark += ' ';

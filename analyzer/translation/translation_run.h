@@ -46,7 +46,7 @@ struct BlockRefusal {
 };
 
 /// A drilling cycle in force; levels along the plane's normal in mm, in the program's coordinates.
-struct DrillingCycle {
+struct CycleInForce {
   int g = 0;  ///< 81 for G81; 0: none in force.
   double initial = 0;
   std::optional<double> r;
@@ -211,7 +211,7 @@ class TranslationRun {
   std::set<UntranslatableReason> said_once_;
   std::string turned_by_;  // G68 or G69, until a motion has given both axes of the plane.
   ForeignPlane turned_plane_;
-  DrillingCycle cycle_;
+  CycleInForce cycle_;
   std::optional<double> feed_;  // mm/min, of G94.
   std::string feed_digits_;     // As written.
   bool feed_in_inches_ = false;
