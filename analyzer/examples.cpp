@@ -1,6 +1,7 @@
 #include "analyzer/examples.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,6 +51,35 @@ std::string_view wrong_program(Cause cause) {
   return cause.number == 0 ? def.wrong : def.causes[cause.number - 1].wrong;
 }
 
+/// The rules of a shop that the example programs of W143 break.
+static std::vector<dialect::HouseWatch> example_house_rules() {
+  using dialect::HouseEvent;
+  using dialect::HouseWatch;
+  const HouseEvent tool_change{.kind = HouseEvent::Kind::ToolChange};
+  HouseWatch coolant{.rule = "coolant",
+                     .message = {.en = "coolant before the first cut of each tool",
+                                 .it = "il refrigerante va acceso prima del primo taglio di ogni utensile"},
+                     .reported = {{.kind = HouseEvent::Kind::Cut}},
+                     .started = {tool_change},
+                     .ended = {{.kind = HouseEvent::Kind::M, .number = 8}}};
+  const auto of_drill = [](std::string rule, HouseWatch::BilingualText message, HouseWatch::Kind kind) {
+    return HouseWatch{.rule = std::move(rule),
+                      .message = std::move(message),
+                      .kind = kind,
+                      .tools = {{.first = 101002, .last = 101002}}};
+  };
+  HouseWatch speed = of_drill("drill-speed", {.en = "our drills", .it = "le nostre punte"}, HouseWatch::Kind::Speed);
+  speed.minimum = 3'000;
+  speed.maximum = 12'000;
+  HouseWatch feed = of_drill("drill-feed", {.en = "our drills", .it = "le nostre punte"}, HouseWatch::Kind::Feed);
+  feed.minimum = 100;
+  feed.maximum = 2'000;
+  HouseWatch depth = of_drill("drill-depth", {.en = "our drills are short", .it = "le nostre punte sono corte"},
+                              HouseWatch::Kind::Depth);
+  depth.minimum = -20;
+  return {std::move(coolant), std::move(speed), std::move(feed), std::move(depth)};
+}
+
 rules::CheckSetup example_setup(DiagnosticId id) {
   rules::CheckSetup setup;
   if (id == "tool-not-configured"_diag) setup.machine.tools = {{1, 1, 1}};
@@ -59,6 +89,7 @@ rules::CheckSetup example_setup(DiagnosticId id) {
   if (id == "rotary-speed-above-machine"_diag) setup.machine.limits.rotary_speed = 3'600;
   if (id == "spindle-speed-above-machine"_diag) setup.machine.limits.spindle_speed = 18'000;
   if (id == "rapid-below-clearance"_diag) setup.machine.clearance = 5;
+  if (id == "house-rule"_diag) setup.house_rules = std::make_shared<const rules::HouseRules>(example_house_rules());
   setup.every_motion = dialect::definition(id).is_off;
   return setup;
 }

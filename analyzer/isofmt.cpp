@@ -69,7 +69,7 @@ struct FormatCommandOptions {
   /// Whether one of them asks for another way of writing, or for its proof.
   bool changes_style() const {
     return word_order || no_word_order || renumber_all || verify || !decimals.empty() || !renumber.empty() ||
-           !modal.empty() || !g_digits.empty();
+           !modal.empty() || !g_digits.empty() || !from.empty();
   }
   Language reader_language() const { return dialect::language_named(language).value_or(system::user_language()); }
   OutputMode mode() const {

@@ -211,7 +211,7 @@ bool Analysis::follow_text(const std::function<bool()>& stop) {
   line_count_ = document_.line_count();
   if (is_first || !jumps_stand) {
     for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale = true;
-    return check_from(0, Checker::start(setup_.machine), stop);
+    return check_from(0, Checker::start(setup_), stop);
   }
   if (has_changed && !check_from(change.first, std::move(at_change), stop)) return false;
   return check_stale(stop);

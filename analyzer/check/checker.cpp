@@ -27,15 +27,18 @@ static constexpr std::size_t kLongestPath = 64;
 static constexpr std::size_t kMaxWaiting = 16'384;
 
 Checker::Checker(const rules::CheckSetup& setup, const JumpMap& jumps, bool suspects_centers)
-    : frontier(start(setup.machine)),
+    : frontier(start(setup)),
       setup_(setup),
       jumps_(jumps),
+      house_(setup.house_rules.get()),
       checks_moves_(rules::checks_moves(setup)),
       suspects_centers_(suspects_centers) {}
 
-Frontier Checker::start(const execution::Setup& setup) {
+Frontier Checker::start(const rules::CheckSetup& setup) {
   Frontier frontier;
-  frontier.live.add({.state = execution::initial_state(setup), .registers = Valuations::unknown()});
+  frontier.live.add({.state = execution::initial_state(setup.machine),
+                     .house = setup.house_rules ? setup.house_rules->at_start() : rules::HouseMemory{},
+                     .registers = Valuations::unknown()});
   return frontier;
 }
 
@@ -96,6 +99,12 @@ static void note_plain_feed(const execution::PlainRun& run, const execution::Sta
   if (run.has_taken_feed() && state.inverse_time()) outcome.end_folds(folds_ended_by(BlockStep::InverseTimeFeed), line);
 }
 
+/// Records that a depth is judged from where the tool is.
+static void note_house_rules(const rules::HouseRules& house, PositionUse& use) {
+  if (house.watches_depth())
+    use.read |= static_cast<execution::AxisSet>(execution::axis_bit(execution::Axis::Z) & ~use.set);
+}
+
 template <class PlainLineAt>
 std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Outcome& outcome,
                                  PlainLineAt plain_line_at) {
@@ -103,17 +112,22 @@ std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Out
   Group& group = frontier.live[0];
   const execution::State& state = group.state;
   if (group.memory.judges_plain_motions(state)) return 0;
+  if (house_ && house_->judges_plain_motions(group.house, state)) return 0;
+  const rules::PlainGuard guard = house_ ? house_->guard(group.house, state) : rules::PlainGuard{};
   execution::PlainRun run(group.state, setup_.machine, suspects_centers_);
   PositionUse use = outcome.positions;
+  if (house_) note_house_rules(*house_, use);
   std::size_t done = 0;
   for (; done < count; ++done) {
     const PlainLine line = plain_line_at(done);
+    if (guard.is_active && guard.stops_at(line, state)) break;
     if ((line.has_label && jumps_.names(line.label)) || !run.run(line)) break;
     note_plain_move(line, run, state, use);
   }
   outcome.centers.open |= run.met_open_center();
   if (done == 0) return 0;
   group.memory.take(run, state);
+  if (house_) house_->take(run, state, group.house);
   note_plain_feed(run, state, line_number, outcome);
   outcome.has_text = true;
   outcome.last_text_line = line_number + done - 1;
@@ -270,7 +284,11 @@ void Checker::execute_around_jump(const LineTree& line, std::size_t line_number,
 class Checker::LineExecution final : public execution::Sink {
  public:
   LineExecution(Checker& checker, const LineTree& line, std::size_t line_number, Outcome& outcome)
-      : Sink(checker.checks_moves_), checker_(checker), line_(line), line_number_(line_number), outcome_(outcome) {}
+      : Sink(checker.checks_moves_ || (checker.house_ && checker.house_->watches_depth())),
+        checker_(checker),
+        line_(line),
+        line_number_(line_number),
+        outcome_(outcome) {}
 
   void run() {
     const bool is_wrong = has_error_in_text();
@@ -285,6 +303,8 @@ class Checker::LineExecution final : public execution::Sink {
 
   void step(BlockStep step, const execution::State& before) override {
     checker_.frontier.live[group_].memory.take(step, before);
+    is_legible_ = is_legible_ && step != BlockStep::LostLetter && step != BlockStep::IllegibleFunction &&
+                  step != BlockStep::IllegibleMotion;
     if (const FoldSet ended = folds_ended_by(step)) outcome_.end_folds(ended, line_number_);
   }
   void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
@@ -299,13 +319,31 @@ class Checker::LineExecution final : public execution::Sink {
     });
   }
 
+  /// Whether each word of the line can be read, as far as the line alone shows.
+  bool has_legible_words() const {
+    using syntax::Word;
+    const bool is_open = line_.has(LineTree::kUnclosed | LineTree::kMayMove | LineTree::kCut);
+    return !is_open && std::none_of(line_.words.begin(), line_.words.end(), [](const Word& word) {
+      const bool is_stray = word.letter == syntax::kNumber || word.letter == syntax::kError;
+      return is_stray || word.has(Word::kMalformed | Word::kMissing);
+    }) && std::none_of(line_.instructions.begin(), line_.instructions.end(), [](const syntax::Instruction& each) {
+      return each.is_unknown_g();
+    });
+  }
+
   bool run_plainly(Group& group) {
     if (group.memory.judges_plain_motions(group.state)) return false;
+    const rules::HouseRules* const house = checker_.house_;
+    if (house && (house->judges_plain_motions(group.house, group.state) ||
+                  house->guard(group.house, group.state).stops_at(line_.plain(), group.state)))
+      return false;
     execution::PlainRun run(group.state, checker_.setup_.machine, checker_.suspects_centers_);
     if (!run.run(line_.plain())) return false;
+    if (house) note_house_rules(*house, outcome_.positions);
     outcome_.centers.open |= run.met_open_center();
     note_plain_move(line_.plain(), run, group.state, outcome_.positions);
     group.memory.take(run, group.state);
+    if (house) house->take(run, group.state, group.house);
     note_plain_feed(run, group.state, line_number_, outcome_);
     return true;
   }
@@ -318,16 +356,23 @@ class Checker::LineExecution final : public execution::Sink {
     const execution::State before = state;
     const rules::Memory remembered = group.memory;
     move_.reset();
+    is_legible_ = true;
     execution::execute(line_, state, checker_.setup_.machine, *this);
     const auto is_error_here = [](const GroupFinding& found) { return is_error(found.finding); };
-    if (!is_wrong && std::none_of(findings.begin() + first, findings.end(), is_error_here)) {
-      const rules::CheckSetup& setup = checker_.setup_;
-      const rules::ExecutedBlock block{line_, before, state, setup.machine, setup.thresholds};
+    const bool is_right = !is_wrong && std::none_of(findings.begin() + first, findings.end(), is_error_here);
+    const rules::CheckSetup& setup = checker_.setup_;
+    const rules::ExecutedBlock block{line_, before, state, setup.machine, setup.thresholds};
+    if (is_right) {
       rules::run_rules(block, remembered, *this);
-      if (move_) rules::run_move_rules(block, *move_, *this);
+      if (move_ && checker_.checks_moves_) rules::run_move_rules(block, *move_, *this);
     }
+    if (checker_.house_)
+      checker_.house_->judge(block, is_right, is_legible_ && has_legible_words(), move_ ? &*move_ : nullptr,
+                             group.house, *this);
     const bool has_findings = !line_.findings.empty() || static_cast<std::ptrdiff_t>(findings.size()) > first;
-    note_line(line_, before, state, has_findings || checker_.checks_moves_, outcome_.positions);
+    const bool is_judged =
+        has_findings || checker_.checks_moves_ || (checker_.house_ && checker_.house_->watches_depth());
+    note_line(line_, before, state, is_judged, outcome_.positions);
   }
 
   Checker& checker_;
@@ -336,17 +381,19 @@ class Checker::LineExecution final : public execution::Sink {
   Outcome& outcome_;
   std::size_t group_ = 0;                          // The group that executes the line.
   std::optional<execution::ProgrammedMove> move_;  // The line's motion, if motions are watched.
+  bool is_legible_ = true;                         // Whether each word of the line can be read.
 };
 
 /// Executes words that belong to the block before (SplitLine). What they make wrong has been reported there, but for a
-/// missing tool and a missing F, which are mistakes of their own (D45) and reported once only. The words of a frame or
-/// a dwell move no axis, but whatever they name is unknown.
+/// missing tool and a missing F, which are mistakes of their own (D45) and reported once only, and a broken house rule.
+/// The words of a frame or a dwell move no axis, but whatever they name is unknown.
 void Checker::execute_carried(const LineTree& words, bool is_of_motion, std::size_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
   group_findings_.clear();
   LineExecution(*this, words, line_number, outcome).run();
   std::erase_if(group_findings_, [](const GroupFinding& each) {
-    return each.finding.id != "initial-tool-missing"_diag && each.finding.id != "feed-missing"_diag;
+    return each.finding.id != "initial-tool-missing"_diag && each.finding.id != "feed-missing"_diag &&
+           each.finding.id != "house-rule"_diag;
   });
   if (!group_findings_.empty()) report_common_findings(line_number, outcome);
   outcome.positions.read |= static_cast<execution::AxisSet>(execution::kAllAxes & ~outcome.positions.set);
@@ -358,6 +405,8 @@ void Checker::execute_carried(const LineTree& words, bool is_of_motion, std::siz
 
 void Checker::execute_in_all_groups(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
+  if (house_ && house_->watches_comments() && !line.comments.empty())
+    for (Group& group : live) house_->take_comments(line, group.house);
   if (const auto assignment = execution::lone_assignment(line)) {
     for (Group& group : live) {
       execution::pass_by(group.state);
@@ -394,7 +443,8 @@ void Checker::report_common_findings(std::size_t line_number, Outcome& outcome) 
   for (std::size_t i = 0; i < group_findings_.size(); ++i) {
     const Finding& finding = group_findings_[i].finding;
     const auto same = [&](const GroupFinding& other) {
-      return other.finding.id == finding.id && other.finding.span == finding.span;
+      return other.finding.id == finding.id && other.finding.span == finding.span &&
+             other.finding.names == finding.names;
     };
     const auto here = group_findings_.begin() + static_cast<std::ptrdiff_t>(i);
     if (std::any_of(group_findings_.begin(), here, same)) continue;
@@ -487,7 +537,8 @@ void Checker::branch(const LineTree& line, std::size_t line_number, Outcome& out
     may_jump |= jumps_on;
     may_stay |= stays;
     if (jumps_on)
-      jumping.append({group.state, group.memory, std::move(where_true), stays ? decide(group.path, true) : group.path});
+      jumping.append({group.state, group.memory, group.house, std::move(where_true),
+                      stays ? decide(group.path, true) : group.path});
     if (!stays) continue;
     if (jumps_on) group.path = decide(std::move(group.path), false);
     Group& place = frontier.live[staying++];

@@ -21,7 +21,7 @@ class Checker {
   Checker(const rules::CheckSetup& setup, const JumpMap& jumps, bool suspects_centers = false);
 
   /// The frontier before the first line.
-  static Frontier start(const execution::Setup& setup);
+  static Frontier start(const rules::CheckSetup& setup);
 
   /// Checks one line.
   void check(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
@@ -65,6 +65,7 @@ class Checker {
 
   const rules::CheckSetup& setup_;
   const JumpMap& jumps_;
+  const rules::HouseRules* const house_;  // Null without house rules.
   const bool checks_moves_;
   const bool suspects_centers_;
   std::vector<GroupFinding> group_findings_;  // The findings of one line; a member to keep its memory.

@@ -42,12 +42,18 @@ static void merge(Group& into, Group&& other) {
   into.registers.unite(std::move(other.registers));
   execution::join(into.state, other.state);
   into.memory.join(other.memory);
+  into.house.join(other.house);
   into.path = common_decisions(into.path, other.path);
+}
+
+/// Whether all later lines are judged alike on the paths of both.
+static bool judged_alike(const Group& a, const Group& b) {
+  return a.house == b.house && execution::judged_alike(a.state, b.state);
 }
 
 void Groups::add(Group group) {
   for (Group& present : all_)
-    if (execution::judged_alike(present.state, group.state)) return merge(present, std::move(group));
+    if (judged_alike(present, group)) return merge(present, std::move(group));
   all_.push_back(std::move(group));
 }
 
@@ -78,7 +84,7 @@ static constexpr std::size_t kFew = 8;
 static void converge_few(std::vector<Group>& groups) {
   for (std::size_t i = 0; i < groups.size(); ++i)
     for (std::size_t j = i + 1; j < groups.size();) {
-      if (execution::judged_alike(groups[i].state, groups[j].state)) {
+      if (judged_alike(groups[i], groups[j])) {
         merge(groups[i], std::move(groups[j]));
         groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(j));
       } else {
@@ -99,7 +105,7 @@ void Groups::converge() {
       const std::size_t into = order[i].second;
       const std::size_t other = order[j].second;
       if (!is_merged.empty() && (is_merged[into] || is_merged[other])) continue;
-      if (!execution::judged_alike(all_[into].state, all_[other].state)) continue;
+      if (!judged_alike(all_[into], all_[other])) continue;
       merge(all_[into], std::move(all_[other]));
       is_merged.resize(all_.size());
       is_merged[other] = true;
@@ -144,8 +150,13 @@ void Groups::reduce_to(std::size_t limit) {
 
 std::optional<execution::State> Frontier::state_at(const syntax::LineTree& next) const {
   const Groups groups = live_at(next);
-  if (groups.size() != 1 || reduced) return std::nullopt;
-  return groups[0].state;
+  if (groups.empty() || reduced) return std::nullopt;
+  execution::State state = groups[0].state;
+  for (std::size_t i = 1; i < groups.size(); ++i) {  // Those that differ only in what house rules remember.
+    if (!execution::judged_alike(state, groups[i].state)) return std::nullopt;
+    execution::join(state, groups[i].state);
+  }
+  return state;
 }
 
 bool Frontier::reduce(Groups& groups) const {

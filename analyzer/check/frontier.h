@@ -7,6 +7,7 @@
 
 #include "analyzer/check/registers.h"
 #include "analyzer/check/report.h"
+#include "analyzer/rules/house_rules.h"
 #include "analyzer/rules/memory.h"
 #include "interpreter/execution/state.h"
 #include "interpreter/syntax/forward_paths.h"
@@ -16,10 +17,12 @@ namespace isocnc::check {
 /// The maximum number of machine states followed at once; beyond it some are dropped (W191).
 inline constexpr std::size_t kMaxStates = 512;
 
-/// Paths through the program that have led to the same machine state, and so have the same findings from here on.
+/// Paths through the program that have led to the same machine state and the same memory of house rules, and so have
+/// the same findings from here on.
 struct Group {
   execution::State state;
   rules::Memory memory;  ///< What the lint rules remember; paths that differ in it alone are joined.
+  rules::HouseMemory house;
   Valuations registers;
   Decisions path;  ///< The decisions that all of its paths share.
 
@@ -47,8 +50,8 @@ class Groups {
   void join(Groups&& groups);
   /// Joins groups whose states have become equal.
   void converge();
-  /// Reduces the groups to at most `limit`: first joins those that differ in position alone, whose position is then
-  /// unknown; then drops the last ones. Findings may be missed after that, but none is wrong.
+  /// Reduces the groups to at most `limit`: first joins those that differ alone in position, which is then unknown, or
+  /// in what house rules remember; then drops the last ones. Findings may be missed after that, but none is wrong.
   void reduce_to(std::size_t limit);
 
   friend bool operator==(const Groups&, const Groups&) = default;

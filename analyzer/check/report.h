@@ -36,7 +36,9 @@ struct LocatedFinding {
   std::optional<std::size_t> last_line;       ///< Of a run's finding: where it ends, if on another line; from 0.
   std::optional<std::size_t> shaped_by;       ///< Of a run's finding: as RunFinding::shaped_by.
 
-  dialect::Severity severity() const { return selected.value_or(dialect::definition(finding.id).severity); }
+  dialect::Severity severity() const {
+    return selected.value_or(finding.severity.value_or(dialect::definition(finding.id).severity));
+  }
 
   friend bool operator==(const LocatedFinding&, const LocatedFinding&) = default;
 };

@@ -64,6 +64,7 @@ void run_rules(ExecutedBlock block, const Memory& memory, execution::Sink& sink)
 }
 
 bool checks_moves(const CheckSetup& setup) {
+  if (setup.house_rules && setup.house_rules->needs_each_motion()) return true;
   return setup.every_motion || setup.machine.clearance || setup.machine.limits != execution::Limits{};
 }
 

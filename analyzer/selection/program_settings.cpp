@@ -38,7 +38,10 @@ const ProgramSettings& SettingsFinder::of(const std::filesystem::path& program) 
   if (!settings) {
     const Selection selection = selection_of(configuration, holds, command_line_);
     const bool every_motion = selection.shows("motion-goes-nowhere"_diag);
-    const rules::CheckSetup setup{configuration.machine.setup, configuration.lint.thresholds, every_motion};
+    const std::vector<dialect::HouseWatch>& watches = configuration.lint.house_watches;
+    const bool has_house_rules = !watches.empty() && selection.shows("house-rule"_diag);
+    const rules::CheckSetup setup{configuration.machine.setup, configuration.lint.thresholds, every_motion,
+                                  has_house_rules ? std::make_shared<const rules::HouseRules>(watches) : nullptr};
     settings = std::make_unique<const ProgramSettings>(ProgramSettings{setup, selection, configuration});
   }
   return *settings;

@@ -123,13 +123,14 @@ std::vector<std::string> Selection::follow(const SelectionOptions& options, Lang
       wanted = on || (ignored < 0 && select.empty());
     }
     severities_[i] = wanted ? severity : std::nullopt;
+    weighed_[i] = weighed_[i] || decided >= 0;
   }
   return {};
 }
 
 check::Report Selection::shown(check::Report report) const {
   std::erase_if(report.findings, [&](const check::LocatedFinding& located) { return !shows(located.finding.id); });
-  for (check::LocatedFinding& located : report.findings) located.selected = severity(located.finding.id);
+  for (check::LocatedFinding& located : report.findings) located.selected = severity(located.finding);
   return report;
 }
 

@@ -34,12 +34,18 @@ class Selection {
   std::optional<dialect::Severity> severity(dialect::DiagnosticId id) const {
     return severities_[static_cast<std::size_t>(id)];
   }
+  /// The same for one finding: a house rule's own severity counts unless options have given its code one.
+  std::optional<dialect::Severity> severity(const syntax::Finding& finding) const {
+    const bool counts = finding.severity && shows(finding.id) && !weighed_[static_cast<std::size_t>(finding.id)];
+    return counts ? finding.severity : severity(finding.id);
+  }
   bool shows(dialect::DiagnosticId id) const { return severity(id).has_value(); }
   /// The report without findings that are off; each of the others has its selected severity.
   check::Report shown(check::Report report) const;
 
  private:
   std::array<std::optional<dialect::Severity>, dialect::kDiagnosticCount> severities_;
+  std::array<bool, dialect::kDiagnosticCount> weighed_{};  ///< Whether options have given the code a severity.
 };
 
 /// `unknown code: ISO31; did you mean ISO031? (--list-rules)`

@@ -64,7 +64,8 @@ static Findings find_warnings(const debuggee::Debuggee& debuggee, const std::fil
   selection::SettingsFinder finder(configurations, {});
   const selection::ProgramSettings& settings = finder.of(program);
   const std::string_view text = debuggee.text().text();
-  const rules::CheckSetup setup{debuggee.setup(), settings.setup.thresholds, settings.setup.every_motion};
+  const rules::CheckSetup setup{debuggee.setup(), settings.setup.thresholds, settings.setup.every_motion,
+                                settings.setup.house_rules};
   const check::Report report = selection::shown_report(check::check_text(text, setup), text, settings.selection);
   const std::vector<std::size_t> jump_targets = find_jump_targets(text);
   Findings warnings;

@@ -13,6 +13,7 @@
 #include "interpreter/configuration/mistake.h"
 #include "interpreter/configuration/path_patterns.h"
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/dialect/house_watch.h"
 #include "interpreter/dialect/lint_thresholds.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/geometry/vectors.h"
@@ -165,10 +166,36 @@ struct FileOverrides {
 /// matter.
 bool is_program_name(std::string_view name, std::span<const std::string> extensions);
 
+/// A rule of the shop, as it is written; the reader makes watches of it.
+struct DescribedHouseRule {
+  std::string id;
+  dialect::HouseWatch::BilingualText message;
+  std::string severity;  ///< `error`, `warning`, `info`; empty: `warning`.
+  // Patterns: one of these is given.
+  std::vector<std::string> require;
+  std::vector<std::string> forbid;
+  std::string comment;
+  std::vector<std::string> head;
+  std::vector<std::string> end;
+  std::optional<double> speed_from;
+  std::optional<double> speed_to;
+  std::optional<double> feed_from;
+  std::optional<double> feed_to;
+  std::optional<double> lowest_z;
+  // What belongs to a pattern.
+  std::vector<std::string> before;
+  std::vector<std::string> since;
+  std::vector<std::string> after;
+  std::vector<std::string> until;
+  std::vector<std::string> tools;
+};
+
 struct Lint {
   CodeSelection selection;
   dialect::LintThresholds thresholds;
-  std::vector<FileOverrides> files;  ///< Later entries override earlier ones.
+  std::vector<DescribedHouseRule> house_rules;
+  std::vector<dialect::HouseWatch> house_watches;  ///< What they watch for.
+  std::vector<FileOverrides> files;                ///< Later entries override earlier ones.
   /// Extensions with their dot.
   std::vector<std::string> extensions{kProgramExtensions.begin(), kProgramExtensions.end()};
   std::vector<std::string> exclude;

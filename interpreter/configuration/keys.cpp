@@ -32,6 +32,7 @@ static constexpr Text kRotaryJerk = {"degrees/s^3", "gradi/s^3"};
 }  // namespace units
 
 static constexpr std::string_view kSeverities[] = {"error", "warning", "info", "off"};
+static constexpr std::string_view kRuleSeverities[] = {"error", "warning", "info"};
 static constexpr std::string_view kModal[] = {"keep", "write", "fold"};
 static constexpr std::string_view kToolShapes[] = {"flat", "ball", "bull", "cone", "drill", "disc"};
 static constexpr std::string_view kMachineParts[] = {"machine", "X", "Y", "Z", "C", "B"};
@@ -872,12 +873,224 @@ static void add_options(std::vector<Key>& keys) {
       &dialect::LintThresholds::vector_error);
 }
 
+/// The keys of a house rule that are given, of those that make its pattern.
+static std::vector<std::string_view> patterns_in(const DescribedHouseRule& rule) {
+  std::vector<std::string_view> given;
+  const auto add = [&](std::string_view name, bool is_given) {
+    if (is_given) given.push_back(name);
+  };
+  add("require", !rule.require.empty());
+  add("forbid", !rule.forbid.empty());
+  add("comment", !rule.comment.empty());
+  add("head", !rule.head.empty());
+  add("end", !rule.end.empty());
+  add("speedFrom", rule.speed_from.has_value());
+  if (!rule.speed_from) add("speedTo", rule.speed_to.has_value());
+  add("feedFrom", rule.feed_from.has_value());
+  if (!rule.feed_from) add("feedTo", rule.feed_to.has_value());
+  add("lowestZ", rule.lowest_z.has_value());
+  return given;
+}
+
+/// Whether an event of one list stands in another, by any spelling.
+static std::optional<Objection> same_event(std::string_view member, const std::vector<std::string>& names,
+                                           std::string_view other, const std::vector<std::string>& others) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto is_same = [&](const std::string& name) {
+      return dialect::house_event(name) == dialect::house_event(names[i]);
+    };
+    if (std::any_of(others.begin(), others.end(), is_same))
+      return Objection{
+          .member = member, .text = mistakes::kSameEvent, .names = {names[i], std::string(other)}, .row = i};
+  }
+  return std::nullopt;
+}
+
+/// Keys that do not belong to the pattern of a house rule, or that it lacks.
+static std::optional<Objection> objection_to_parts(const DescribedHouseRule& rule) {
+  const bool requires_first = !rule.require.empty() || !rule.comment.empty();
+  const bool forbids = !rule.forbid.empty();
+  const bool is_by_tool = rule.speed_from || rule.speed_to || rule.feed_from || rule.feed_to || rule.lowest_z;
+  struct Part {
+    std::string_view member;
+    bool is_given;
+    bool belongs;
+    std::string_view patterns;
+  };
+  const Part parts[] = {{"before", !rule.before.empty(), requires_first, "require, comment"},
+                        {"since", !rule.since.empty(), requires_first, "require, comment"},
+                        {"after", !rule.after.empty(), forbids, "forbid"},
+                        {"until", !rule.until.empty(), forbids, "forbid"},
+                        {"forTools", !rule.tools.empty(), is_by_tool, "speedFrom, speedTo, feedFrom, feedTo, lowestZ"}};
+  for (const Part& part : parts)
+    if (part.is_given && !part.belongs)
+      return Objection{.member = part.member, .text = mistakes::kNotOfPattern, .names = {std::string(part.patterns)}};
+  if (requires_first && rule.before.empty())
+    return Objection{.member = rule.require.empty() ? "comment" : "require",
+                     .text = mistakes::kNeedsKey,
+                     .names = {std::string("before")}};
+  if (!rule.until.empty() && rule.after.empty())
+    return Objection{.member = "until", .text = mistakes::kNeedsKey, .names = {std::string("after")}};
+  return std::nullopt;
+}
+
+static std::optional<Objection> objection_to_values(const DescribedHouseRule& rule) {
+  const auto above = [](std::string_view member, const std::optional<double>& from,
+                        const std::optional<double>& to) -> std::optional<Objection> {
+    if (!from || !to || *from <= *to) return std::nullopt;
+    return Objection{
+        .member = member, .text = mistakes::kFromAboveTo, .names = {fmt::format("{}", *from), fmt::format("{}", *to)}};
+  };
+  if (auto objection = above("speedFrom", rule.speed_from, rule.speed_to)) return objection;
+  if (auto objection = above("feedFrom", rule.feed_from, rule.feed_to)) return objection;
+  if (auto objection = same_event("require", rule.require, "before", rule.before)) return objection;
+  if (auto objection = same_event("until", rule.until, "forbid", rule.forbid)) return objection;
+  for (std::size_t i = 0; i < rule.forbid.size() && rule.after.empty(); ++i) {
+    using Kind = dialect::HouseEvent::Kind;
+    const Kind kind = dialect::house_event(rule.forbid[i])->kind;
+    if (kind == Kind::Motion || kind == Kind::Rapid || kind == Kind::Cut)
+      return Objection{.member = "forbid", .text = mistakes::kForbidsMotion, .names = {rule.forbid[i]}, .row = i};
+  }
+  return std::nullopt;
+}
+
+static std::optional<Objection> objection_to_house_rule(const Configuration& configuration, ElementIndex index) {
+  const std::vector<DescribedHouseRule>& all = configuration.lint.house_rules;
+  const DescribedHouseRule& rule = all[index.element];
+  const auto here = all.begin() + static_cast<std::ptrdiff_t>(index.element);
+  if (std::any_of(all.begin(), here, [&](const DescribedHouseRule& other) { return other.id == rule.id; }))
+    return Objection{.member = "id", .text = mistakes::kRuleTwice};
+  const std::vector<std::string_view> patterns = patterns_in(rule);
+  if (patterns.empty()) return Objection{.member = "", .text = mistakes::kOnePattern};
+  if (patterns.size() > 1)
+    return Objection{.member = patterns[1], .text = mistakes::kSecondPattern, .names = {std::string(patterns.front())}};
+  if (auto objection = objection_to_parts(rule)) return objection;
+  if (auto objection = objection_to_values(rule)) return objection;
+  std::size_t watches = 0;
+  for (const DescribedHouseRule& each : all) watches += std::max<std::size_t>(1, each.head.size() + each.end.size());
+  if (watches > dialect::kMaxHouseWatches)
+    return Objection{
+        .member = "", .text = mistakes::kManyWatches, .names = {fmt::format("{}", dialect::kMaxHouseWatches)}};
+  return std::nullopt;
+}
+
+template <class Member>
+static auto of_house_rule(Member member) {
+  return [member](Configuration& c, ElementIndex i) -> ValueSlot { return &(c.lint.house_rules[i.element].*member); };
+}
+
+static void add_house_rule_numbers(std::vector<Key>& keys) {
+  using Rule = DescribedHouseRule;
+  const auto add = [&](std::string_view name, NumberRange range, const Text& unit, const Text& documentation,
+                       auto member) {
+    keys.push_back({.path = "lint.houseRules[]." + std::string(name),
+                    .kind = KeyKind::Number,
+                    .range = range,
+                    .unit = unit,
+                    .documentation = documentation,
+                    .slot = of_house_rule(member)});
+  };
+  add("speedFrom", kSpeed, units::kRevolutionsPerMinute,
+      {"Pattern: S is at least this.", "Modello: S è almeno questa."}, &Rule::speed_from);
+  add("speedTo", kSpeed, units::kRevolutionsPerMinute,
+      {"Pattern, also beside `speedFrom`: S is at most this.",
+       "Modello, anche con `speedFrom`: S è al massimo questa."},
+      &Rule::speed_to);
+  add("feedFrom", kSpeed, units::kMillimetersPerMinute,
+      {"Pattern: the feed under G94 is at least this.", "Modello: l'avanzamento con la G94 è almeno questo."},
+      &Rule::feed_from);
+  add("feedTo", kSpeed, units::kMillimetersPerMinute,
+      {"Pattern, also beside `feedFrom`: the feed under G94 is at most this.",
+       "Modello, anche con `feedFrom`: l'avanzamento con la G94 è al massimo questo."},
+      &Rule::feed_to);
+  add("lowestZ", kLength, units::kMillimeters,
+      {"Pattern: no motion goes below this Z of the frame in force.",
+       "Modello: nessun movimento scende sotto questa Z del riferimento in presa."},
+      &Rule::lowest_z);
+}
+
+static void add_house_rules(std::vector<Key>& keys) {
+  using Rule = DescribedHouseRule;
+  keys.push_back({.path = "lint.houseRules",
+                  .kind = KeyKind::Objects,
+                  .documentation = {"Rules of the shop, each with one pattern (W143).",
+                                    "Regole dell'officina, ciascuna con un modello (W143)."},
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.lint.house_rules; },
+                  .objection = objection_to_house_rule});
+  const std::string path = "lint.houseRules[].";
+  keys.push_back({.path = path + "id",
+                  .kind = KeyKind::Text,
+                  .text = TextKind::Name,
+                  .documentation = {"What messages call the rule.", "Come i messaggi chiamano la regola."},
+                  .is_required = true,
+                  .slot = of_house_rule(&Rule::id)});
+  keys.push_back({.path = path + "message",
+                  .kind = KeyKind::Message,
+                  .documentation = {"What isolint says where the rule is broken.",
+                                    "Che cosa dice isolint quando la regola non è rispettata."},
+                  .is_required = true,
+                  .slot = of_house_rule(&Rule::message)});
+  keys.push_back({.path = path + "severity",
+                  .kind = KeyKind::Choice,
+                  .choices = kRuleSeverities,
+                  .documentation = {"How much it weighs; without it, `warning`.", "Il suo peso; senza, `warning`."},
+                  .slot = of_house_rule(&Rule::severity)});
+  const auto add_list = [&](std::string_view name, TextKind kind, const Text& documentation, auto member) {
+    keys.push_back({.path = path + std::string(name),
+                    .kind = KeyKind::Texts,
+                    .text = kind,
+                    .documentation = documentation,
+                    .is_never_empty = true,
+                    .slot = of_house_rule(member)});
+  };
+  add_list(
+      "require", TextKind::Event,
+      {"Pattern: one of these comes before each of `before`.", "Modello: una di queste viene prima di ogni `before`."},
+      &Rule::require);
+  keys.push_back({.path = path + "comment",
+                  .kind = KeyKind::Text,
+                  .documentation = {"Pattern: such a comment comes before each of `before`; a * stands for any text.",
+                                    "Modello: un commento così viene prima di ogni `before`; * sta per qualsiasi "
+                                    "testo."},
+                  .slot = of_house_rule(&Rule::comment)});
+  add_list("before", TextKind::Event,
+           {"With `require` or `comment`: before what.", "Con `require` o `comment`: prima di che cosa."},
+           &Rule::before);
+  add_list(
+      "since", TextKind::Event,
+      {"With `require` or `comment`: asked for anew after each of these, and not before the first; without it, once "
+       "in the program.",
+       "Con `require` o `comment`: si chiede di nuovo dopo ognuna di queste, e non prima della prima; senza, una "
+       "volta nel programma."},
+      &Rule::since);
+  add_list("forbid", TextKind::Event, {"Pattern: none of these comes.", "Modello: nessuna di queste compare."},
+           &Rule::forbid);
+  add_list("after", TextKind::Event,
+           {"With `forbid`: only after one of these.", "Con `forbid`: solo dopo una di queste."}, &Rule::after);
+  add_list("until", TextKind::Event,
+           {"With `after`: until one of these.", "Con `after`: finché non viene una di queste."}, &Rule::until);
+  add_list("head", TextKind::ModeOrM,
+           {"Pattern: each of these is written before the first motion.",
+            "Modello: ognuna di queste è scritta prima del primo movimento."},
+           &Rule::head);
+  add_list("end", TextKind::ModeOrM,
+           {"Pattern: each of these is written between the last cut and M02.",
+            "Modello: ognuna di queste è scritta fra l'ultimo taglio e la M02."},
+           &Rule::end);
+  add_house_rule_numbers(keys);
+  add_list("forTools", TextKind::Tool,
+           {"With S, F or Z: only for these tools, `T101003`, or all that start so, `T101*`.",
+            "Con S, F o Z: solo per questi utensili, `T101003`, o per tutti quelli che iniziano così, `T101*`."},
+           &Rule::tools);
+}
+
 static void add_lint(std::vector<Key>& keys) {
   keys.push_back({.path = "lint",
                   .documentation = {"What isolint reports, and which files are programs.",
                                     "Che cosa segnala isolint, e quali file sono programmi."}});
   add_selection_keys(keys, "lint", [](Configuration& c, ElementIndex) -> CodeSelection& { return c.lint.selection; });
   add_options(keys);
+  add_house_rules(keys);
   keys.push_back({.path = "lint.files",
                   .kind = KeyKind::Objects,
                   .documentation = {"What holds for some programs alone; the later outweighs the earlier.",
@@ -1017,7 +1230,7 @@ namespace {
 
 template <class T>
 concept Element = std::same_as<T, Tool> || std::same_as<T, NamedFunction> || std::same_as<T, FileOverrides> ||
-    std::same_as<T, DescribedBody> || std::same_as<T, DescribedSetup>;
+    std::same_as<T, DescribedBody> || std::same_as<T, DescribedSetup> || std::same_as<T, DescribedHouseRule>;
 
 template <class T>
 concept AbsentObject = std::same_as<T, Renumber> || std::same_as<T, DescribedCylinder> ||

@@ -31,10 +31,22 @@ enum class KeyKind : std::uint8_t {
   Point,       ///< A list of numbers, one for each of `columns`.
   Rows,        ///< A list of such lists.
   NamedRows,   ///< Such lists of lists, with names chosen by the author.
+  Message,     ///< A text, or an object with one for each language.
 };
 
 /// The meaning of a text, an element of a list or a name.
-enum class TextKind : std::uint8_t { Any, Code, Pattern, Extension, Function, File };
+enum class TextKind : std::uint8_t {
+  Any,
+  Code,
+  Pattern,
+  Extension,
+  Function,
+  File,
+  Name,     ///< Of a house rule: letters, digits and - . _
+  Event,    ///< dialect::house_event()
+  ModeOrM,  ///< Such an event that is a G or an M.
+  Tool,     ///< dialect::tool_range()
+};
 
 /// The range of a key's numbers.
 struct NumberRange {
@@ -65,6 +77,7 @@ using ValueSlot =
                  // Lists of objects.
                  std::optional<std::vector<Tool>>*, std::optional<std::vector<NamedFunction>>*,
                  std::vector<FileOverrides>*, std::vector<DescribedBody>*, std::vector<DescribedSetup>*,
+                 std::vector<DescribedHouseRule>*, dialect::HouseWatch::BilingualText*,
                  // Objects that may be absent.
                  std::optional<Renumber>*, std::optional<DescribedCylinder>*, std::optional<DescribedStock>*,
                  std::optional<DescribedSpoilboard>*, std::optional<DescribedTarget>*>;

@@ -97,6 +97,8 @@ inline constexpr dialect::Text kBadNumber = {"not a number as JSON writes it", "
 inline constexpr dialect::Text kHugeNumber = {"a number that is too large", "numero troppo grande"};
 
 inline constexpr dialect::Text kWrongKind = {"this is {0}, and {1} is needed", "questo è {0}; ci vuole {1}"};
+inline constexpr dialect::Text kTextOrTexts = {"text, or an object with it and en",
+                                               "un testo, o un oggetto con en e it"};
 inline constexpr dialect::Text kUnknownKey = {"unknown key", "chiave sconosciuta"};
 inline constexpr dialect::Text kKeyTwice = {"this key stands on line {0} already", "chiave già presente alla riga {0}"};
 inline constexpr dialect::Text kKeyMissing = {"the key {0} is missing", "manca la chiave {0}"};
@@ -123,6 +125,33 @@ inline constexpr dialect::Text kEmpty = {"the text is empty", "il testo è vuoto
 inline constexpr dialect::Text kMinAboveMax = {"min is more than max", "min è maggiore di max"};
 inline constexpr dialect::Text kToolTwice = {"this tool is listed already", "utensile già in elenco"};
 inline constexpr dialect::Text kFunctionTwice = {"this M is named already", "questa M ha già un nome"};
+inline constexpr dialect::Text kBadRuleName = {"{0}: the id of a rule has letters, digits, - . and _ only",
+                                               "{0}: l'id di una regola ha solo lettere, cifre, - . e _"};
+inline constexpr dialect::Text kRuleTwice = {"a rule before this has the same id",
+                                             "una regola prima di questa ha lo stesso id"};
+inline constexpr dialect::Text kBadEvent = {
+    "{0} is none of what a rule can name: an M such as M08, a G such as G90, toolChange, motion, rapid, cut, end",
+    "{0} non è fra ciò che una regola può nominare: una M come M08, una G come G90, toolChange, motion, rapid, cut, "
+    "end"};
+inline constexpr dialect::Text kMotionEvent = {"{0} is a motion: name it motion, rapid or cut",
+                                               "{0} è un movimento: va chiamato motion, rapid o cut"};
+inline constexpr dialect::Text kBadModeOrM = {"{0} is no M such as M05 and no G such as G90",
+                                              "{0} non è una M come M05, né una G come G90"};
+inline constexpr dialect::Text kBadTool = {"{0} is no tool: T with six digits, or with fewer and a *, as in T101*",
+                                           "{0} non è un utensile: T con sei cifre, o con meno e un *, come in T101*"};
+inline constexpr dialect::Text kOnePattern = {
+    "one of require, forbid, comment, head, end, speedFrom, speedTo, feedFrom, feedTo and lowestZ is needed",
+    "ci vuole uno fra require, forbid, comment, head, end, speedFrom, speedTo, feedFrom, feedTo e lowestZ"};
+inline constexpr dialect::Text kSecondPattern = {"there is {0} already; a rule has one pattern",
+                                                 "c'è già {0}: una regola ha un solo modello"};
+inline constexpr dialect::Text kNotOfPattern = {"only a rule with {0} has this", "questo l'ha solo una regola con {0}"};
+inline constexpr dialect::Text kFromAboveTo = {"{0} is more than {1}", "{0} è maggiore di {1}"};
+inline constexpr dialect::Text kForbidsMotion = {"{0} can be forbidden only with the key after",
+                                                 "{0} si può vietare solo con la chiave after"};
+inline constexpr dialect::Text kSameEvent = {"{0} stands in {1}, too, so that the rule says nothing",
+                                             "{0} sta anche in {1}, e così la regola non dice nulla"};
+inline constexpr dialect::Text kManyWatches = {"more than {0} rules; each word of head and of end counts as one",
+                                               "più di {0} regole; ogni parola di head e di end conta per una"};
 
 inline constexpr dialect::Text kRowLength = {"{0} numbers are needed here: {1}", "qui ci vogliono {0} numeri: {1}"};
 inline constexpr dialect::Text kRowCount = {"{0} rows are needed here", "qui ci vogliono {0} righe"};

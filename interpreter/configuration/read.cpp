@@ -44,6 +44,7 @@ static JsonKind json_of(KeyKind kind) {
     case KeyKind::Named:
     case KeyKind::Severities:
     case KeyKind::NamedRows:
+    case KeyKind::Message:
       break;
   }
   return JsonKind::Object;
@@ -84,8 +85,41 @@ static std::optional<Fault> file_fault(std::string_view text) {
   return is_absolute || goes_up ? std::optional(Fault{mistakes::kOutsideFolder, {}}) : std::nullopt;
 }
 
+static std::optional<Fault> event_fault(std::string_view text) {
+  if (dialect::house_event(text)) return std::nullopt;
+  const std::optional<int> g = dialect::code_number('G', text);
+  const dialect::GCode* const code = g ? dialect::g_code(static_cast<std::size_t>(*g)) : nullptr;
+  if (code && code->is_motion()) return Fault{mistakes::kMotionEvent, {}};
+  static const std::vector<std::string> kNames = {"toolChange", "motion", "rapid", "cut", "end"};
+  return Fault{mistakes::kBadEvent, dialect::nearest_name(text, kNames)};
+}
+
+static bool is_mode_or_m(std::string_view text) {
+  return dialect::house_event(text) && (text.front() == 'G' || text.front() == 'M');
+}
+
+static bool is_rule_name(std::string_view text) {
+  const auto may_stand = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.' ||
+           c == '_';
+  };
+  return std::all_of(text.begin(), text.end(), may_stand);
+}
+
 static std::optional<Fault> fault_of(TextKind kind, std::string_view text) {
+  const auto unless = [](bool is_right, const Text& mistake) {
+    return is_right ? std::nullopt : std::optional(Fault{mistake, {}});
+  };
+  if (text.empty() && kind > TextKind::File) return Fault{mistakes::kEmpty, {}};
   switch (kind) {
+    case TextKind::Name:
+      return unless(is_rule_name(text), mistakes::kBadRuleName);
+    case TextKind::Event:
+      return event_fault(text);
+    case TextKind::ModeOrM:
+      return unless(is_mode_or_m(text), mistakes::kBadModeOrM);
+    case TextKind::Tool:
+      return unless(dialect::tool_range(text).has_value(), mistakes::kBadTool);
     case TextKind::Code:
       if (dialect::find_codes(text)) return std::nullopt;
       return Fault{mistakes::kUnknownCode, dialect::nearest_code(text)};
@@ -166,6 +200,7 @@ class ConfigurationReader {
   }
 
   void read_value(const Key& key, const JsonValue& value, const std::string& path, ElementIndex index) {
+    if (key.kind == KeyKind::Message) return read_message(key, value, path, index);
     if (value.kind != json_of(key.kind))
       return complain(value.at, path, mistakes::kWrongKind, {name_of(value.kind), name_of(json_of(key.kind))});
     const ValueSlot slot = key.slot ? key.slot(result_.configuration, index) : ValueSlot();
@@ -199,7 +234,35 @@ class ConfigurationReader {
         return read_rows(key, value, path, index, *std::get<std::optional<NumberRows>*>(slot));
       case KeyKind::NamedRows:
         return read_named_rows(key, value, path, *std::get<std::vector<NamedRows>*>(slot));
+      case KeyKind::Message:
+        return;
     }
+  }
+
+  /// Reads one text for both languages, or an object with a text for each.
+  void read_message(const Key& key, const JsonValue& value, const std::string& path, ElementIndex index) {
+    auto& message = *std::get<dialect::HouseWatch::BilingualText*>(key.slot(result_.configuration, index));
+    if (value.kind == JsonKind::String) {
+      if (is_right(TextKind::Any, value.string, value.at, path)) message = {value.string, value.string};
+      return;
+    }
+    if (value.kind != JsonKind::Object)
+      return complain(value.at, path, mistakes::kWrongKind, {name_of(value.kind), mistakes::kTextOrTexts});
+    SeenKeys seen;
+    for (const JsonMember& member : value.members) {
+      const std::string below = path + "." + member.key;
+      if (is_full() || is_duplicate(member, seen, below)) continue;
+      const std::optional<dialect::Language> language = dialect::language_named(member.key);
+      if (!language) {
+        complain(member.at, below, mistakes::kUnknownKey);
+      } else if (member.value.kind != JsonKind::String) {
+        complain(member.value.at, below, mistakes::kWrongKind, {name_of(member.value.kind), name_of(JsonKind::String)});
+      } else if (is_right(TextKind::Any, member.value.string, member.value.at, below)) {
+        (*language == dialect::Language::Italian ? message.it : message.en) = member.value.string;
+      }
+    }
+    for (const std::string_view language : dialect::kLanguageNames)
+      if (!holds(value, language)) complain(value.at, path, mistakes::kKeyMissing, {std::string(language)});
   }
 
   void store_text(const JsonValue& value, const std::string& path, const ValueSlot& slot) {
@@ -503,8 +566,74 @@ static void derive_motion(MachineConfiguration& machine) {
     machine.timed.durations.functions[function.number] = function.seconds;
 }
 
+static std::vector<dialect::HouseEvent> events_of(const std::vector<std::string>& names) {
+  std::vector<dialect::HouseEvent> events;
+  for (const std::string& name : names) events.push_back(*dialect::house_event(name));
+  return events;
+}
+
+static dialect::Severity severity_named(std::string_view name) {
+  for (const auto severity : {dialect::Severity::Error, dialect::Severity::Info})
+    if (name == dialect::severity_name(severity, dialect::Language::English)) return severity;
+  return dialect::Severity::Warning;
+}
+
+/// Adds a watch for each word of the head or the end.
+static void add_words(const std::vector<std::string>& words, const dialect::HouseWatch& pattern,
+                      std::vector<dialect::HouseWatch>& watches) {
+  for (const std::string& word : words) {
+    dialect::HouseWatch watch = pattern;
+    watch.ended = events_of({word});
+    if (words.size() > 1) {
+      watch.message.en += ": " + word;
+      watch.message.it += ": " + word;
+    }
+    watches.push_back(std::move(watch));
+  }
+}
+
+/// Adds the watches of a rule without mistakes.
+static void add_watches(const DescribedHouseRule& rule, std::vector<dialect::HouseWatch>& watches) {
+  using dialect::HouseEvent;
+  using Kind = dialect::HouseWatch::Kind;
+  dialect::HouseWatch watch{.rule = rule.id, .message = rule.message, .severity = severity_named(rule.severity)};
+  const auto add_range = [&](Kind kind, const std::optional<double>& from, const std::optional<double>& to) {
+    if (!from && !to) return;
+    watch.kind = kind;
+    if (from) watch.minimum = *from;
+    if (to) watch.maximum = *to;
+    for (const std::string& tool : rule.tools) watch.tools.push_back(*dialect::tool_range(tool));
+    watches.push_back(watch);
+  };
+  if (!rule.require.empty() || !rule.comment.empty()) {
+    watch.reported = events_of(rule.before);
+    watch.started = events_of(rule.since);
+    watch.ended = events_of(rule.require);
+    watch.comment = rule.comment;
+    watch.is_on_first = rule.since.empty();
+    watches.push_back(std::move(watch));
+  } else if (!rule.forbid.empty()) {
+    watch.reported = events_of(rule.forbid);
+    watch.started = events_of(rule.after);
+    watch.ended = events_of(rule.until);
+    watch.is_on_first = watch.stays_on = rule.after.empty();
+    watches.push_back(std::move(watch));
+  } else if (!rule.head.empty()) {
+    watch.reported = {{.kind = HouseEvent::Kind::Motion}};
+    watch.is_on_first = true;
+    add_words(rule.head, watch, watches);
+  } else if (!rule.end.empty()) {
+    watch.reported = {{.kind = HouseEvent::Kind::End}};
+    watch.started = {{.kind = HouseEvent::Kind::Cut}};
+    add_words(rule.end, watch, watches);
+  }
+  add_range(Kind::Speed, rule.speed_from, rule.speed_to);
+  add_range(Kind::Feed, rule.feed_from, rule.feed_to);
+  add_range(Kind::Depth, rule.lowest_z, std::nullopt);
+}
+
 /// Sets the members derived from others.
-static void derive(Configuration& configuration, const std::filesystem::path& folder) {
+static void derive(Configuration& configuration, const std::filesystem::path& folder, bool is_right) {
   MachineConfiguration& machine = configuration.machine;
   if (machine.tools) {
     machine.setup.tools.emplace();
@@ -515,6 +644,9 @@ static void derive(Configuration& configuration, const std::filesystem::path& fo
     for (const NamedFunction& function : *machine.functions) machine.setup.functions->push_back(function.number);
   }
   derive_motion(machine);
+  if (is_right)
+    for (const DescribedHouseRule& rule : configuration.lint.house_rules)
+      add_watches(rule, configuration.lint.house_watches);
   Lint& lint = configuration.lint;
   lint.excluded = PathPatterns(folder, lint.exclude);
   for (FileOverrides& files : lint.files) files.patterns = PathPatterns(folder, files.paths);
@@ -538,7 +670,7 @@ static void read_text(std::string_view text, const Key* key, ReadConfiguration& 
 ReadConfiguration read_configuration(std::string_view text, const std::filesystem::path& folder) {
   ReadConfiguration result;
   read_text(text, nullptr, result);
-  derive(result.configuration, folder);
+  derive(result.configuration, folder, result.mistakes.empty());
   return result;
 }
 

@@ -76,6 +76,10 @@ static std::optional<ordered_json> value_in(const std::vector<NamedRows>* all) {
 static std::optional<ordered_json> value_in(const std::optional<ShapeFile>* mesh) {
   return *mesh ? std::optional<ordered_json>((*mesh)->name) : std::nullopt;
 }
+static std::optional<ordered_json> value_in(const dialect::HouseWatch::BilingualText* message) {
+  if (message->en == message->it) return message->en;
+  return ordered_json{{"en", message->en}, {"it", message->it}};
+}
 /// Objects have their keys in the table; only their presence matters here.
 template <typename T>
 static std::optional<ordered_json> value_in(const T* /*objects*/) {
@@ -107,6 +111,8 @@ static std::optional<ordered_json> value_of(Configuration& configuration, const 
   if (is_absent(slot)) return std::nullopt;
   if (key.kind == KeyKind::Objects) return list_of(configuration, key, slot, index);
   if (key.kind == KeyKind::Named) return named_of(configuration, key, slot);
+  if (key.kind == KeyKind::Texts && key.is_never_empty && std::get<std::vector<std::string>*>(slot)->empty())
+    return std::nullopt;
   if (key.kind != KeyKind::Object) return std::visit([](const auto& place) { return value_in(place); }, slot);
   ordered_json object = object_of(configuration, &key, index);
   return object.empty() ? std::nullopt : std::optional(std::move(object));
@@ -141,6 +147,18 @@ static ordered_json text_schema(TextKind kind) {
       break;
     case TextKind::File:
       schema["pattern"] = R"(^(?!(.*[/\\])?\.\.([/\\]|$))(?!.:)[^/\\])";
+      break;
+    case TextKind::Name:
+      schema["pattern"] = "^[A-Za-z0-9._-]+$";
+      break;
+    case TextKind::Event:
+      schema["pattern"] = "^(M[0-9]{1,3}|G[0-9]{1,3}|toolChange|motion|rapid|cut|end)$";
+      break;
+    case TextKind::ModeOrM:
+      schema["pattern"] = "^[GM][0-9]{1,3}$";
+      break;
+    case TextKind::Tool:
+      schema["pattern"] = R"(^T([0-9]{6}|[0-9]{0,5}\*)$)";
       break;
     case TextKind::Any:
       schema["minLength"] = 1;
@@ -253,6 +271,16 @@ static ordered_json schema_of(const Key* key) {
       schema["propertyNames"] = text_schema(key->text);
       schema["additionalProperties"] = rows_schema(*key);
       break;
+    case KeyKind::Message: {
+      ordered_json texts = {
+          {"type", "object"}, {"additionalProperties", false}, {"properties", ordered_json::object()}};
+      for (const std::string_view language : dialect::kLanguageNames) {
+        texts["properties"][std::string(language)] = text_schema(TextKind::Any);
+        texts["required"].push_back(std::string(language));
+      }
+      schema["anyOf"] = {text_schema(TextKind::Any), std::move(texts)};
+      break;
+    }
   }
   return schema;
 }
@@ -321,6 +349,9 @@ static std::string kind_of(const Key& key, Language language) {
     for (const std::string_view choice : key.choices) choices.push_back(fmt::format("`\"{}\"`", choice));
     return fmt::format("{}", fmt::join(choices, ", "));
   }
+  static constexpr Text kMessage = {"text, or `{\"en\": text, \"it\": text}`",
+                                    "testo, o `{\"en\": testo, \"it\": testo}`"};
+  if (key.kind == KeyKind::Message) return std::string(kMessage.in(language));
   std::string kind = key.columns.empty() ? std::string(kNames[static_cast<std::size_t>(key.kind)].in(language))
                                          : rows_form(key, language);
   if (!key.unit.en.empty()) kind += fmt::format(", {}", key.unit.in(language));

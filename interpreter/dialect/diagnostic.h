@@ -57,7 +57,8 @@ struct CauseDef {
 /// One kind of finding: a row of the table of diagnostics, with all its texts.
 ///
 /// A message may name `{text}` (the program text under the finding's mark), `{other}` (that under its second mark), the
-/// values in `arguments` by name, and `{who}` and `{whom}`, the names from outside the program that it brings along.
+/// values in `arguments` by name, and `{who}` and `{whom}`, the names from outside the program that it brings along;
+/// `{said}` is the second of them in full, a sentence of the configuration.
 /// After a length of a run `{unit}` is its unit, `mm` or, where the block is under G70, `in`; `{inches}` stands where
 /// none is needed but there, and is empty or ` (inches)`.
 struct DiagnosticDef {

@@ -120,6 +120,7 @@ std::string message(Cause cause, Language language, const Quoted& quoted) {
     if (name == "inches") result.append(inches_note(quoted.is_in_inches, language));
     if (name == "who" && !quoted.names.empty()) result.append(quote(quoted.names[0].in(language)));
     if (name == "whom" && quoted.names.size() > 1) result.append(quote(quoted.names[1].in(language)));
+    if (name == "said" && quoted.names.size() > 1) result.append(spelled_out(quoted.names[1].in(language)));
     for (std::size_t i = 0; i < quoted.values.size() && i < kMaxArguments; ++i)
       if (def.arguments[i] == name) result.append(shown_value(name, quoted.values[i]));
     at = close + 1;

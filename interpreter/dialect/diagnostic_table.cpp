@@ -2316,6 +2316,50 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
               "gli altri archi."},
      .wrong = "",
      .right = ""},
+    {.code = "W143",
+     .name = "house-rule",
+     .severity = Severity::Warning,
+     .section = "I.4",
+     .arguments = {"value", "limit"},
+     .title = {.en = "Rule of the shop", .it = "Regola dell'officina"},
+     .message = {.en = "{said} ({who})", .it = "{said} ({who})"},
+     .causes = {{.cause = "low-speed",
+                 .message = {.en = "{said} ({who}): S is {value}, and at least {limit} is right here",
+                             .it = "{said} ({who}): S è {value}, e qui ci vuole almeno {limit}"},
+                 .wrong = "M06 T101002\nM08\n[!S2000!] M03\nG01 X10 F1000\nM05\nM02\n"},
+                {.cause = "high-speed",
+                 .message = {.en = "{said} ({who}): S is {value}, and at most {limit} is right here",
+                             .it = "{said} ({who}): S è {value}, e qui ci vuole al massimo {limit}"},
+                 .wrong = "M06 T101001\nM08\nS18000 M03\nG01 X10 F1000\nM05\nM06 T101002\nM08\nM03\n[!G01!] X20\n"
+                          "M05\nM02\n"},
+                {.cause = "low-feed",
+                 .message = {.en = "{said} ({who}): the feed is {value} mm/min, and at least {limit} is right here",
+                             .it = "{said} ({who}): l'avanzamento è di {value} mm/min, e qui ci vuole almeno {limit}"},
+                 .wrong = "M06 T101002\nM08\nG01 X10 [!F80!]\nM02\n"},
+                {.cause = "high-feed",
+                 .message = {.en = "{said} ({who}): the feed is {value} mm/min, and at most {limit} is right here",
+                             .it = "{said} ({who}): l'avanzamento è di {value} mm/min, e qui ci vuole al massimo "
+                                   "{limit}"},
+                 .wrong = "M06 T101002\nM08\nG01 X10 [!F9000!]\nM02\n"},
+                {.cause = "too-deep",
+                 .message = {.en = "{said} ({who}): this goes down to Z{value} {unit}, and Z{limit} is the lowest",
+                             .it = "{said} ({who}): qui si scende a Z{value} {unit}, e il minimo è Z{limit}"},
+                 .wrong = "M06 T101002\nM08\nG01 [!Z-25!] F1000\nM02\n"}},
+     .explanation =
+         {.en =
+              "The program breaks a rule that your shop has set in its isocnc.json, under `lint.houseRules`; the name "
+              "in parentheses is the id of the rule, and the sentence before it comes from there. The control knows "
+              "nothing of such rules. A rule is judged on each path through the program, and its weight is the one "
+              "that it states, unless a severity is given for W143. A false alarm where the rule does not fit the "
+              "job: silence the line, or change the rule.",
+          .it =
+              "Il programma non rispetta una regola che la tua officina ha scritto nel suo isocnc.json, sotto "
+              "`lint.houseRules`; il nome fra parentesi è l'id della regola, e la frase che lo precede viene da lì. "
+              "Il controllo non sa nulla di queste regole. Una regola si giudica su ogni via attraverso il programma, "
+              "e il suo peso è quello che essa indica, se non se ne dà uno a W143. Falso allarme se la regola non "
+              "vale per questo lavoro: si tolga la segnalazione da quella linea, o si cambi la regola."},
+     .wrong = "M06 T101001\nS12000 M03\n[!G01!] X10 F1000\nM08\nX20\nM05\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nM08\nG01 X10 F1000\nX20\nM05\nM02\n"},
     {.code = "W154",
      .name = "near-miss",
      .severity = Severity::Info,

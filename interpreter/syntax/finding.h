@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -34,6 +35,7 @@ struct Finding {
   std::uint8_t cause = 0;  ///< Selects the message, dialect::Cause::number.
   /// The values that are lengths are in inches, as the program has them under G70; else in mm.
   bool is_in_inches = false;
+  std::optional<dialect::Severity> severity;  ///< Where the author of a rule has chosen one; else that of the table.
   Span span;
   Span related;  ///< A second place on the same line that explains the first (the first F of two); may be empty.
   std::array<double, dialect::kMaxArguments> values{};

@@ -40,6 +40,14 @@ inline constexpr std::string_view kRightTexts[] = {
     R"({"lint": {"select": ["iso", "W1", "arc-center-mismatch", "ALL"], "ignore": ["W003"], "severity": {"W": "off"}}})",
     R"({"lint": {"files": [{"paths": ["old/**", "*.tmp.iso", "\\!x"], "ignore": ["ALL"]}, {"paths": ["a..b/"]}]}})",
     R"({"lint": {"extensions": [".iso", "out.nc"], "exclude": ["archive/", "[a-c]?.iso"]}})",
+    R"({"lint": {"houseRules": [{"id": "a.B-1_", "require": ["M7", "M08"], "before": ["cut", "rapid", "G27"], "message": "x"},
+      {"id": "b", "comment": "*", "before": ["end"], "since": ["toolChange"], "message": {"it": "a", "en": "b"}},
+      {"id": "c", "forbid": ["M999", "G200", "M06", "M02"], "severity": "info", "message": "c"},
+      {"id": "d", "forbid": ["motion"], "after": ["M70"], "until": ["M71", "M71"], "message": "d"},
+      {"id": "e", "head": ["G71", "M3"], "message": "e"}, {"id": "f", "end": ["M5", "M05"], "message": "f"},
+      {"id": "g", "speedFrom": 100, "speedTo": 100, "message": "g"}, {"id": "h", "speedTo": 1, "message": "h"},
+      {"id": "i", "feedFrom": 0.5e1, "forTools": ["T101001", "T*", "T10200*"], "message": "i"},
+      {"id": "j", "feedTo": 9, "message": "j"}, {"id": "k", "lowestZ": 0, "severity": "error", "message": "k"}]}})",
     R"({"format": {"wordOrder": true, "decimals": 3, "gDigits": 2, "modal": "fold", "renumber": {}}})",
     R"({"format": {"renumber": {"start": 0, "step": 5, "allLines": true}}})",
 };
@@ -104,6 +112,62 @@ inline constexpr WrongText kWrongTexts[] = {
     {R"({"lint": {"extensions": ["*.iso", "."]}})",
      "1:26: lint.extensions[0]: *.iso is not an extension, such as .iso\n"
      "1:35: lint.extensions[1]: . is not an extension, such as .iso"},
+    // House rules.
+    {R"({"lint": {"houseRules": [{"require": ["M08"]}]}})",
+     "1:26: lint.houseRules[0]: the key id is missing\n1:26: lint.houseRules[0]: the key message is missing"},
+    {R"({"lint": {"houseRules": [{"id": "a b", "message": 3, "head": []}]}})",
+     "1:33: lint.houseRules[0].id: a b: the id of a rule has letters, digits, - . and _ only\n"
+     "1:51: lint.houseRules[0].message: this is a number, and text, or an object with it and en is needed\n"
+     "1:62: lint.houseRules[0].head: the list is empty"},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": {"en": "x", "de": "y"}, "head": ["M5"]}]}})",
+     "1:49: lint.houseRules[0].message: the key it is missing\n1:61: lint.houseRules[0].message.de: unknown key"},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": {"en": "", "it": 4, "en": "z"}, "head": ["M5"]}]}})",
+     "1:56: lint.houseRules[0].message.en: the text is empty\n"
+     "1:66: lint.houseRules[0].message.it: this is a number, and text is needed\n"
+     "1:69: lint.houseRules[0].message.en: this key stands on line 1 already"},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "severity": "off", "head": ["cut", "G999"]}]}})",
+     "1:66: lint.houseRules[0].severity: off is not one of error, warning, info\n"
+     "1:82: lint.houseRules[0].head[0]: cut is no M such as M05 and no G such as G90\n"
+     "1:89: lint.houseRules[0].head[1]: G999 is no M such as M05 and no G such as G90"},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "forbid": ["toolchange", "M1000", ""]}]}})",
+     "1:65: lint.houseRules[0].forbid[0]: toolchange is none of what a rule can name: an M such as M08, a G such as "
+     "G90, "
+     "toolChange, motion, rapid, cut, end; did you mean toolChange?\n"
+     "1:79: lint.houseRules[0].forbid[1]: M1000 is none of what a rule can name: an M such as M08, a G such as G90, "
+     "toolChange, motion, rapid, cut, end\n"
+     "1:88: lint.houseRules[0].forbid[2]: the text is empty"},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "forbid": ["G01", "M08"]}]}})",
+     "1:65: lint.houseRules[0].forbid[0]: G01 is a motion: name it motion, rapid or cut", kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "lowestZ": 0, "forTools": ["101001", "T1234567", "T*1"]}]}})",
+     "1:81: lint.houseRules[0].forTools[0]: 101001 is no tool: T with six digits, or with fewer and a *, as in T101*\n"
+     "1:91: lint.houseRules[0].forTools[1]: T1234567 is no tool: T with six digits, or with fewer and a *, as in "
+     "T101*\n"
+     "1:103: lint.houseRules[0].forTools[2]: T*1 is no tool: T with six digits, or with fewer and a *, as in T101*"},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "speedTo": 0, "require": ["M08"]}]}})",
+     "1:65: lint.houseRules[0].speedTo: 0 is too small: at least 1 rev/min"},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "require": ["M08"]}]}})",
+     "1:65: lint.houseRules[0].require: this needs the key before", kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a"}]}})",
+     "1:26: lint.houseRules[0]: one of require, forbid, comment, head, end, speedFrom, speedTo, feedFrom, feedTo and "
+     "lowestZ is needed",
+     kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "head": ["M05"], "feedTo": 9}]}})",
+     "1:81: lint.houseRules[0].feedTo: there is head already; a rule has one pattern", kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "head": ["M05"], "since": ["cut"]}]}})",
+     "1:80: lint.houseRules[0].since: only a rule with require, comment has this", kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "forbid": ["M05"], "forTools": ["T*"]}]}})",
+     "1:85: lint.houseRules[0].forTools: only a rule with speedFrom, speedTo, feedFrom, feedTo, lowestZ has this",
+     kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "forbid": ["M05"], "until": ["M06"]}]}})",
+     "1:82: lint.houseRules[0].until: this needs the key after", kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "forbid": ["M05", "cut"]}]}})",
+     "1:72: lint.houseRules[0].forbid[1]: cut can be forbidden only with the key after", kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "require": ["M8", "M3"], "before": ["M03"]}]}})",
+     "1:72: lint.houseRules[0].require[1]: M3 stands in before, too, so that the rule says nothing", kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "speedFrom": 9, "speedTo": 8}]}})",
+     "1:67: lint.houseRules[0].speedFrom: 9 is more than 8", kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "head": ["M05"]}, {"id": "a", "message": "b", "end": ["M05"]}]}})",
+     "1:79: lint.houseRules[1].id: a rule before this has the same id", kSchemaAccepts},
     {R"({"format": {"wordOrder": 1}})", "1:26: format.wordOrder: this is a number, and true or false is needed"},
     {R"({"format": {"decimals": 16, "gDigits": 3}})",
      "1:25: format.decimals: 16 is too large: at most 15\n1:40: format.gDigits: 3 is too large: at most 2"},

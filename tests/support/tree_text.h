@@ -18,6 +18,8 @@ inline std::string text_of(const syntax::Finding& finding) {
       fmt::format("{}/{} at {}", dialect::definition(finding.id).code, finding.cause, text_of(finding.span));
   if (!finding.related.empty()) text += " related " + text_of(finding.related);
   for (const double value : finding.values) text += fmt::format(" {}", value + 0.0);
+  for (const dialect::GivenName& name : finding.names)
+    if (name.number != 0) text += fmt::format(" named {}", name.in(dialect::Language::English));
   return text;
 }
 
