@@ -9,6 +9,7 @@
 #include "analyzer/selection/program_settings.h"
 #include "analyzer/selection/run_report.h"
 #include "analyzer/selection/verified.h"
+#include "analyzer/transforming/transform.h"
 #include "interpreter/command_line/material_values.h"
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
@@ -66,13 +67,14 @@ struct RunCommandOptions {
   std::optional<std::string> approach_feed;
   std::optional<std::string> outline;
   std::optional<std::string> tool;
+  std::optional<std::string> lift;
   configuration::ConfigurationSource source;
   std::optional<std::string> machine;
 
   Language reader_language() const { return dialect::language_named(language).value_or(system::user_language()); }
   bool reads_stdin() const { return file == "-"; }
   /// Whether a program is written instead of a report.
-  bool makes_program() const { return restart_at || outline || tool; }
+  bool makes_program() const { return restart_at || outline || tool || lift; }
   /// The path of the program file for the system.
   std::string program_file() const { return reads_stdin() ? "/dev/stdin" : file; }
   std::string shown_file() const { return reads_stdin() ? "<stdin>" : file; }
@@ -100,8 +102,11 @@ constexpr Text kNotMountedThere{"{} is not mounted there, but by the M06 of: lin
 constexpr Text kMountedTwice{"{0} is mounted more than once, by the M06 of lines {1}; --tool {0}@{2} means the first",
                              "{0} viene montato più di una volta, dalle M06 delle righe {1}; --tool {0}@{2} intende "
                              "la prima"};
-constexpr Text kOfMadePrograms{"{} goes with --restart-at, --tool or --outline",
-                               "{} va con --restart-at, --tool o --outline"};
+constexpr Text kWrongLift{"--lift takes a plain number of mm above 0, such as 50, not {}",
+                          "--lift vuole un numero semplice in mm maggiore di 0, come 50, non {}"};
+constexpr Text kNotLifted{"the raised program is not written: {}", "il programma alzato non viene scritto: {}"};
+constexpr Text kOfMadePrograms{"{} goes with --restart-at, --tool, --lift or --outline",
+                               "{} va con --restart-at, --tool, --lift o --outline"};
 constexpr Text kCutsNothing{"there is no outline: the program has no feed move with a tool",
                             "non c'è un contorno: il programma non ha movimenti di lavoro con un utensile"};
 constexpr Text kNoWayAround{"no outline is written: on its way, {}; --clearance sets another height",
@@ -539,6 +544,26 @@ ExitStatus write_outline(const system::SourceFile& source, const RunCommandOptio
   return write_made(program, options) ? ExitStatus::Success : ExitStatus::Failure;
 }
 
+/// Writes the same program higher by so many mm.
+ExitStatus write_lifted(const system::SourceFile& source, const RunCommandOptions& options, double lift,
+                        const running::RunOptions& run_options, const RunSettings& settings) {
+  const Language language = options.reader_language();
+  const transforming::Transformation up{.movement = transforming::Movement::Shift, .place = {0, 0, lift}};
+  const auto made = transforming::transform(source.text(), up, settings.machine.setup, language);
+  if (const auto* const refusal = std::get_if<transforming::TransformationRefusal>(&made)) {
+    complain(fmt::format("{}:{}: {}", options.shown_file(), refusal->line + 1,
+                         dialect::format(kNotLifted, language, refusal->message(language))));
+    return ExitStatus::Findings;
+  }
+  const auto& program = std::get<std::string>(made);
+  const std::string obstacle = obstacle_on_the_way(program, options, run_options, settings);
+  if (!obstacle.empty()) {
+    complain(fmt::format("{}: {}", options.shown_file(), dialect::format(kNotLifted, language, obstacle)));
+    return ExitStatus::Findings;
+  }
+  return write_part(program, source, options);
+}
+
 /// The settings of the run; none, after an error message, if a file is invalid. The program's configuration also sets
 /// the language, unless the command line does.
 std::optional<RunSettings> find_settings(RunCommandOptions& options) {
@@ -628,6 +653,14 @@ ExitStatus run_file(RunCommandOptions options) {
     operation = read_tool(options);
     if (!operation) return ExitStatus::Failure;
   }
+  std::optional<double> lift;
+  if (options.lift) {
+    lift = read_decimal(*options.lift);
+    if (!lift || !(*lift > 0) || *lift > transforming::kMaxPlace) {
+      refuse(kWrongLift, *options.lift, options);
+      return ExitStatus::Failure;
+    }
+  }
   std::optional<outline::OutlineOptions> outline_options;
   if (options.outline) {
     outline_options = read_outline_options(options, *run_options);
@@ -644,6 +677,7 @@ ExitStatus run_file(RunCommandOptions options) {
   const auto& source = std::get<system::SourceFile>(opened);
   if (operation) return write_operation(source, options, *restart_options, *operation);
   if (restart_options) return restart(source, options, *restart_options);
+  if (lift) return write_lifted(source, options, *lift, *run_options, *found);
   if (outline_options) return write_outline(source, options, *outline_options, *found);
   outputs->subject = plot_subject(source.text(), machine, options);
   outputs->subject.scene = found->scene;
@@ -680,6 +714,8 @@ ExitStatus run_main(int argc, char** argv) {
                        "perché, e indica le linee più vicine da cui lo è."},
                       {"With --tool it writes a program that does one operation alone, begun as a restart is.",
                        "Con --tool scrive un programma che fa una sola lavorazione, iniziata come una ripresa."},
+                      {"With --lift it writes the same program higher, to run it in the air.",
+                       "Con --lift scrive lo stesso programma più in alto, per eseguirlo in aria."},
                       {"With --outline it writes a program that goes around the job, above it and with the spindle "
                        "off, to see before the first cut that everything has room. It is run on the simulated machine "
                        "first.",
@@ -769,6 +805,19 @@ ExitStatus run_main(int argc, char** argv) {
           .excludes(stock_out)
           .excludes(verify)
           .excludes(json);
+  const command_line::ProgramOption lift = program
+                                               .add_option("--lift", options.lift, {"MM", "MM"},
+                                                           {"Write the same program higher by so many mm",
+                                                            "Scrive lo stesso programma più in alto di tanti mm"})
+                                               .excludes(restart_at)
+                                               .excludes(tool)
+                                               .excludes(until)
+                                               .excludes(trace)
+                                               .excludes(samples)
+                                               .excludes(plot)
+                                               .excludes(stock_out)
+                                               .excludes(verify)
+                                               .excludes(json);
   program
       .add_option("--outline", options.outline, {"SHAPE", "FORMA"},
                   {"Write a program that goes around the job:\nrectangle, hull or path",
@@ -776,6 +825,7 @@ ExitStatus run_main(int argc, char** argv) {
                    "(contorno)"})
       .excludes(restart_at)
       .excludes(tool)
+      .excludes(lift)
       .excludes(until)
       .excludes(trace)
       .excludes(samples)

@@ -10,7 +10,9 @@
 
 namespace isocnc::outline {
 
-void CoveredArea::add(const Point& from, const Point& to, double radius) { strokes_.push_back({from, to, radius}); }
+void CoveredArea::add(const OutlinePoint& from, const OutlinePoint& to, double radius) {
+  strokes_.push_back({from, to, radius});
+}
 
 std::vector<double> CoveredArea::radii() const {
   std::vector<double> all;
@@ -22,9 +24,9 @@ std::vector<double> CoveredArea::radii() const {
 Eigen::AlignedBox2d CoveredArea::bounds() const {
   Eigen::AlignedBox2d box;
   for (const Stroke& stroke : strokes_)
-    for (const Point& end : {stroke.from, stroke.to}) {
-      box.extend(end - Point::Constant(stroke.radius));
-      box.extend(end + Point::Constant(stroke.radius));
+    for (const OutlinePoint& end : {stroke.from, stroke.to}) {
+      box.extend(end - OutlinePoint::Constant(stroke.radius));
+      box.extend(end + OutlinePoint::Constant(stroke.radius));
     }
   return box;
 }
@@ -35,10 +37,10 @@ Contour CoveredArea::rectangle() const {
   return {box.min(), {box.max().x(), box.min().y()}, box.max(), {box.min().x(), box.max().y()}};
 }
 
-static double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+static double cross(const OutlinePoint& a, const OutlinePoint& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-static Contour convex_hull(std::vector<Point> points) {
-  const auto is_before = [](const Point& a, const Point& b) {
+static Contour convex_hull(std::vector<OutlinePoint> points) {
+  const auto is_before = [](const OutlinePoint& a, const OutlinePoint& b) {
     return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
   };
   std::sort(points.begin(), points.end(), is_before);
@@ -48,7 +50,7 @@ static Contour convex_hull(std::vector<Point> points) {
   Contour hull;
   for (int side = 0; side < 2; ++side) {
     const std::size_t begin = hull.size();
-    for (const Point& point : points) {
+    for (const OutlinePoint& point : points) {
       while (hull.size() >= begin + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull[hull.size() - 2]) <= 0)
         hull.pop_back();
       hull.push_back(point);
@@ -61,17 +63,17 @@ static Contour convex_hull(std::vector<Point> points) {
 
 Contour CoveredArea::hull() const {
   constexpr int kCorners = 48;
-  std::vector<Point> around;
+  std::vector<OutlinePoint> around;
   for (const double radius : radii()) {
-    std::vector<Point> ends;
+    std::vector<OutlinePoint> ends;
     for (const Stroke& stroke : strokes_)
       if (stroke.radius == radius) ends.insert(ends.end(), {stroke.from, stroke.to});
     // The polygon around the circle.
     const double reach = radius / std::cos(std::numbers::pi / kCorners);
-    for (const Point& end : convex_hull(std::move(ends)))
+    for (const OutlinePoint& end : convex_hull(std::move(ends)))
       for (int i = 0; i < kCorners; ++i) {
         const double angle = 2 * std::numbers::pi * i / kCorners;
-        around.push_back(end + reach * Point(std::cos(angle), std::sin(angle)));
+        around.push_back(end + reach * OutlinePoint(std::cos(angle), std::sin(angle)));
       }
   }
   return convex_hull(std::move(around));
@@ -84,17 +86,17 @@ class Raster {
  public:
   /// Covers the box and a margin around it, which is never marked.
   Raster(const Eigen::AlignedBox2d& box, double cell)
-      : origin_(box.min() - Point::Constant(kMargin * cell)),
+      : origin_(box.min() - OutlinePoint::Constant(kMargin * cell)),
         cell_(cell),
         columns_(static_cast<std::ptrdiff_t>(std::ceil(box.sizes().x() / cell)) + 2 * kMargin),
         rows_(static_cast<std::ptrdiff_t>(std::ceil(box.sizes().y() / cell)) + 2 * kMargin),
         marks_(static_cast<std::size_t>(columns_ * rows_)) {}
 
   /// Marks the squares on a line.
-  void mark(const Point& from, const Point& to) {
+  void mark(const OutlinePoint& from, const OutlinePoint& to) {
     const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / (cell_ * kStep))));
     for (int i = 0; i <= steps; ++i) {
-      const Point place = (from + (to - from) * i / steps - origin_) / cell_;
+      const OutlinePoint place = (from + (to - from) * i / steps - origin_) / cell_;
       at(static_cast<std::ptrdiff_t>(place.x()), static_cast<std::ptrdiff_t>(place.y())) = 1;
     }
   }
@@ -166,7 +168,7 @@ class Raster {
     std::size_t way = 0;
     do {
       if (way == 0) is_done[index(x, y)] = 1;
-      corners.push_back(origin_ + cell_ * Point(static_cast<double>(x), static_cast<double>(y)));
+      corners.push_back(origin_ + cell_ * OutlinePoint(static_cast<double>(x), static_cast<double>(y)));
       x += kWays[way].first;
       y += kWays[way].second;
       // The squares ahead of the corner, to the left and to the right.
@@ -184,15 +186,15 @@ class Raster {
     return contains(x + dx, y + dy) && at(x + dx, y + dy);
   }
 
-  Point origin_;
+  OutlinePoint origin_;
   double cell_;
   std::ptrdiff_t columns_;
   std::ptrdiff_t rows_;
   std::vector<char> marks_;
 };
 
-double distance(const Point& point, const Point& from, const Point& to) {
-  const Point way = to - from;
+double distance(const OutlinePoint& point, const OutlinePoint& from, const OutlinePoint& to) {
+  const OutlinePoint way = to - from;
   const double length = way.squaredNorm();
   const double part = length > 0 ? std::clamp((point - from).dot(way) / length, 0.0, 1.0) : 0;
   return (point - from - part * way).norm();
@@ -201,11 +203,12 @@ double distance(const Point& point, const Point& from, const Point& to) {
 /// Leaves out corners, so that none of those left out is farther than `tolerance` from the rest.
 Contour simplified(const Contour& corners, double tolerance) {
   std::vector<char> is_kept(corners.size() + 1);
-  const auto corner = [&](std::size_t i) -> const Point& { return corners[i % corners.size()]; };
+  const auto corner = [&](std::size_t i) -> const OutlinePoint& { return corners[i % corners.size()]; };
   std::vector<std::pair<std::size_t, std::size_t>> open;
-  const auto farthest = std::max_element(corners.begin(), corners.end(), [&](const Point& a, const Point& b) {
-    return (a - corners.front()).squaredNorm() < (b - corners.front()).squaredNorm();
-  });
+  const auto farthest =
+      std::max_element(corners.begin(), corners.end(), [&](const OutlinePoint& a, const OutlinePoint& b) {
+        return (a - corners.front()).squaredNorm() < (b - corners.front()).squaredNorm();
+      });
   const auto middle = static_cast<std::size_t>(farthest - corners.begin());
   is_kept[0] = is_kept[middle] = 1;
   open.insert(open.end(), {{0, middle}, {middle, corners.size()}});

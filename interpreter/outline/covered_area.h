@@ -6,14 +6,14 @@
 
 namespace isocnc::outline {
 
-using Point = Eigen::Vector2d;       ///< X and Y, mm.
-using Contour = std::vector<Point>;  ///< The corners of a closed polygon, counterclockwise.
+using OutlinePoint = Eigen::Vector2d;       ///< X and Y, mm.
+using Contour = std::vector<OutlinePoint>;  ///< The corners of a closed polygon, counterclockwise.
 
 /// What round tools cover on their way, seen from above. It keeps every stroke, 40 bytes each.
 class CoveredArea {
  public:
   /// A tool of this radius goes straight from one point to the other; mm.
-  void add(const Point& from, const Point& to, double radius);
+  void add(const OutlinePoint& from, const OutlinePoint& to, double radius);
 
   bool is_empty() const { return strokes_.empty(); }
 
@@ -29,8 +29,8 @@ class CoveredArea {
 
  private:
   struct Stroke {
-    Point from;
-    Point to;
+    OutlinePoint from;
+    OutlinePoint to;
     double radius = 0;
   };
 

@@ -40,24 +40,26 @@ std::optional<OutlineShape> outline_shape(std::string_view name) {
 namespace {
 
 /// What a program cuts, in the machine frame.
-struct Job {
+struct CutJob {
   CoveredArea area;
   double highest_feed = -std::numeric_limits<double>::infinity();  ///< Of the tip.
   double highest = -std::numeric_limits<double>::infinity();       ///< Of the tip, with a tool.
   std::optional<execution::ToolCode> tool;                         ///< The first that cuts.
-  Point start = Point::Zero();                                     ///< Where it begins to cut.
+  OutlinePoint start = OutlinePoint::Zero();                       ///< Where it begins to cut.
   std::vector<execution::ToolCode> without_radius;
   running::RunResult run;
 };
 
-Job survey(std::string_view text, const OutlineOptions& options) {
-  Job job;
+CutJob survey(std::string_view text, const OutlineOptions& options) {
+  CutJob job;
   const std::map<execution::ToolCode, double>& radii = options.machine.tool_radii;
   const auto add = [&](const plot::ToolpathStep& step, const std::optional<execution::ToolCode>& tool) {
     if (!tool) return;
     const bool is_feed = step.kind == plot::StepKind::Feed || step.kind == plot::StepKind::Arc;
     const auto radius = radii.find(*tool);
-    for (const plot::ToolpathPoint& point : step.points) job.highest = std::max(job.highest, point.pose.tip.z());
+    const bool moves = is_feed || step.kind == plot::StepKind::Rapid;
+    if (moves)
+      for (const plot::ToolpathPoint& point : step.points) job.highest = std::max(job.highest, point.pose.tip.z());
     if (!is_feed) return;
     if (job.area.is_empty()) {
       job.tool = tool;
@@ -87,8 +89,8 @@ Job survey(std::string_view text, const OutlineOptions& options) {
 /// A rectangle, larger by less than 0.1 mm, with coordinates that one likes to read.
 Contour rounded_out(Contour rectangle) {
   constexpr double kNoise = 1e-6;
-  const Point middle = (rectangle[0] + rectangle[2]) / 2;
-  for (Point& corner : rectangle)
+  const OutlinePoint middle = (rectangle[0] + rectangle[2]) / 2;
+  for (OutlinePoint& corner : rectangle)
     for (int axis = 0; axis < 2; ++axis) {
       const double tenths = corner[axis] * 10;
       corner[axis] = (corner[axis] < middle[axis] ? std::floor(tenths + kNoise) : std::ceil(tenths - kNoise)) / 10;
@@ -109,7 +111,7 @@ std::vector<Contour> contours(const CoveredArea& area, OutlineShape shape) {
 }
 
 /// Each contour begins at its corner next to where the way there comes from: first `start`, then the last contour.
-void order(std::vector<Contour>& contours, Point start) {
+void order(std::vector<Contour>& contours, OutlinePoint start) {
   for (auto next = contours.begin(); next != contours.end(); ++next) {
     auto nearest = next;
     std::size_t corner = 0;
@@ -129,7 +131,7 @@ void order(std::vector<Contour>& contours, Point start) {
 
 std::string shown(double value) { return fmt::format("{}", std::round(value * 1000) / 1000 + 0.0); }
 
-std::string at(const Point& point) { return "X" + shown(point.x()) + " Y" + shown(point.y()); }
+std::string at(const OutlinePoint& point) { return "X" + shown(point.x()) + " Y" + shown(point.y()); }
 
 const Text& name_of(OutlineShape shape) {
   return shape == OutlineShape::Rectangle ? kRectangle : shape == OutlineShape::Hull ? kHull : kPath;
@@ -138,7 +140,7 @@ const Text& name_of(OutlineShape shape) {
 }  // namespace
 
 std::variant<std::string, OutlineRefusal> outline_program(std::string_view text, const OutlineOptions& options) {
-  Job job = survey(text, options);
+  CutJob job = survey(text, options);
   if (job.run.ending != running::Ending::ProgramEnd || job.area.is_empty()) return OutlineRefusal{job.run};
   const Vec3 origin = verification::first_workpiece_origin(text, options.run);
   const geometry::Pose& home = options.run.setup.home;
@@ -160,7 +162,7 @@ std::variant<std::string, OutlineRefusal> outline_program(std::string_view text,
   if (home.b != 0 || home.c != 0) add("B0 C0");
   std::vector<Contour> all = contours(job.area, options.shape);
   order(all, job.start);
-  const auto in_frame = [&](const Point& point) { return at(point - origin.head<2>()); };
+  const auto in_frame = [&](const OutlinePoint& point) { return at(point - origin.head<2>()); };
   bool is_first = true;
   for (const Contour& contour : all) {
     add((is_first ? "" : "G00 ") + in_frame(contour.front()));

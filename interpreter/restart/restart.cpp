@@ -263,7 +263,9 @@ RestartAttempt attempt(std::string_view text, const RestartOptions& options, con
   if (options.end) {
     made.program += text.substr(begin, find_line(text, *options.end).offset - begin);
     wanted_end = RestartSurvey(text, options.run, options.machine, *options.end).point().state;
-    made.program += fmt::format("{1}M02{0}", line_end_of(text), wanted_end.spindle_turns() ? "M05 " : "");
+    const std::string_view line_end = line_end_of(text);
+    made.program +=
+        fmt::format("{1}M02{0}", line_end, wanted_end.spindle_turns() ? fmt::format("M05{}", line_end) : "");
   } else {
     made.program += text.substr(begin);
   }
@@ -395,16 +397,16 @@ std::variant<std::string, RestartRefusal> restart_program(std::string_view text,
 namespace {
 
 /// What a tool does from an M06 to the next one, or to the end of the program. Lines from 0.
-struct Operation {
+struct ToolOperation {
   std::size_t change = 0;     ///< Of the M06.
   std::size_t end = 0;        ///< Of the next M06, or of the block that ends the program.
   std::size_t first_cut = 0;  ///< The first feed move; `end` without one.
 };
 
 /// The operations of a tool on the path that the run takes.
-std::vector<Operation> operations_of(std::string_view text, const RestartOptions& options,
-                                     const execution::ToolCode& tool, running::RunResult& result) {
-  std::vector<Operation> all;
+std::vector<ToolOperation> operations_of(std::string_view text, const RestartOptions& options,
+                                         const execution::ToolCode& tool, running::RunResult& result) {
+  std::vector<ToolOperation> all;
   bool is_open = false;
   bool has_cut = false;
   const auto close = [&](std::size_t line) {
@@ -438,16 +440,16 @@ std::variant<std::string, OperationRefusal> operation_program(std::string_view t
                                                               std::optional<std::size_t> change) {
   OperationRefusal refusal;
   running::RunResult result;
-  std::vector<Operation> all = operations_of(text, options, tool, result);
+  std::vector<ToolOperation> all = operations_of(text, options, tool, result);
   if (result.ending != running::Ending::ProgramEnd) {
     refusal.restart = RestartRefusal{.obstacle = RestartObstacle::ProgramError};
     refusal.restart->run = result;
     return refusal;
   }
-  for (const Operation& each : all) refusal.changes.push_back(each.change);
-  if (change) std::erase_if(all, [&](const Operation& each) { return each.change != *change; });
+  for (const ToolOperation& each : all) refusal.changes.push_back(each.change);
+  if (change) std::erase_if(all, [&](const ToolOperation& each) { return each.change != *change; });
   if (all.size() != 1) return refusal;
-  const Operation& operation = all.front();
+  const ToolOperation& operation = all.front();
   RestartOptions part = options;
   part.end = operation.end;
   // The first rapids may begin where only the tool change has left the tip.

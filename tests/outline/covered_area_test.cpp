@@ -20,26 +20,26 @@ using support::seeds;
 double area(const Contour& contour) {
   double twice = 0;
   for (std::size_t i = 0; i < contour.size(); ++i) {
-    const Point& a = contour[i];
-    const Point& b = contour[(i + 1) % contour.size()];
+    const OutlinePoint& a = contour[i];
+    const OutlinePoint& b = contour[(i + 1) % contour.size()];
     twice += a.x() * b.y() - a.y() * b.x();
   }
   return twice / 2;
 }
 
 struct Line {
-  Point from;
-  Point to;
+  OutlinePoint from;
+  OutlinePoint to;
   double radius = 0;
 
-  double distance(const Point& point) const {
-    const Point way = to - from;
+  double distance(const OutlinePoint& point) const {
+    const OutlinePoint way = to - from;
     const double part = way.squaredNorm() > 0 ? std::clamp((point - from).dot(way) / way.squaredNorm(), 0.0, 1.0) : 0;
     return (point - from - part * way).norm() - radius;
   }
 };
 
-double distance(const std::vector<Line>& lines, const Point& point) {
+double distance(const std::vector<Line>& lines, const OutlinePoint& point) {
   double least = std::numeric_limits<double>::infinity();
   for (const Line& line : lines) least = std::min(least, line.distance(point));
   return least;
@@ -52,19 +52,19 @@ CoveredArea covered(const std::vector<Line>& lines) {
 }
 
 /// Points on the sides, some ten to a side.
-std::vector<Point> along(const Contour& contour) {
-  std::vector<Point> points;
+std::vector<OutlinePoint> along(const Contour& contour) {
+  std::vector<OutlinePoint> points;
   for (std::size_t i = 0; i < contour.size(); ++i)
     for (int part = 0; part < 10; ++part)
       points.push_back(contour[i] + (contour[(i + 1) % contour.size()] - contour[i]) * part / 10);
   return points;
 }
 
-bool is_inside(const Contour& contour, const Point& point) {
+bool is_inside(const Contour& contour, const OutlinePoint& point) {
   bool is_in = false;
   for (std::size_t i = 0; i < contour.size(); ++i) {
-    const Point& a = contour[i];
-    const Point& b = contour[(i + 1) % contour.size()];
+    const OutlinePoint& a = contour[i];
+    const OutlinePoint& b = contour[(i + 1) % contour.size()];
     if ((a.y() > point.y()) != (b.y() > point.y()) &&
         point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()))
       is_in = !is_in;
@@ -90,7 +90,7 @@ TEST(CoveredArea, HasTheHullOfItsClosedForm) {
   // Tools of other radii count with their own.
   std::vector<Line> two = kCorner;
   two.push_back({{200, 0}, {200, 0}, 1});
-  for (const Point& corner : covered(two).hull())
+  for (const OutlinePoint& corner : covered(two).hull())
     EXPECT_LE(distance({{{0, 0}, {200, 0}, 0}, {{200, 0}, {0, 100}, 0}, {{0, 0}, {0, 100}, 0}}, corner), 10.1);
 }
 
@@ -124,9 +124,9 @@ TEST(CoveredAreaProperty, ContoursGoAroundAllOfItAndCloseToIt) {
   for (const std::uint64_t seed : seeds(8)) {
     Random random(seed);
     std::vector<Line> lines;
-    const auto place = [&] { return Point(random.real(-300, 300), random.real(-200, 200)); };
+    const auto place = [&] { return OutlinePoint(random.real(-300, 300), random.real(-200, 200)); };
     for (int count = random.between(1, 12); count > 0; --count)
-      lines.push_back({place(), random.one_in(4) ? place() : Point(random.real(-300, 300), random.real(0, 1)),
+      lines.push_back({place(), random.one_in(4) ? place() : OutlinePoint(random.real(-300, 300), random.real(0, 1)),
                        random.any_of({"a", "b"}) == "a" ? 4.0 : random.real(0, 30)});
     const CoveredArea area = covered(lines);
     const Contour rectangle = area.rectangle();
@@ -134,13 +134,13 @@ TEST(CoveredAreaProperty, ContoursGoAroundAllOfItAndCloseToIt) {
     const std::vector<Contour> contours = area.contours();
     const Contour hull = area.hull();
     for (const Contour& contour : contours)
-      for (const Point& point : along(contour)) {
+      for (const OutlinePoint& point : along(contour)) {
         const double away = distance(lines, point);
         ASSERT_GT(away, 0) << "seed " << seed;
         ASSERT_LT(away, CoveredArea::kContourTolerance * side) << "seed " << seed;
       }
     for (const Line& line : lines)
-      for (const Point& end : {line.from, line.to}) {
+      for (const OutlinePoint& end : {line.from, line.to}) {
         const auto has = [&](const Contour& contour) { return is_inside(contour, end); };
         ASSERT_TRUE(std::any_of(contours.begin(), contours.end(), has)) << "seed " << seed;
         ASSERT_TRUE(is_inside(hull, end) || line.radius == 0) << "seed " << seed;

@@ -47,8 +47,8 @@ TEST(OutlineProgram, GoesWhereItIsTold) {
   EXPECT_THAT(program, HasSubstr("; intorno a part.iso, a Z30, mandrino fermo: il rettangolo\n"));
   EXPECT_THAT(program, HasSubstr("\nZ30\nG01 X48 Y-8 F500\n"));
   // Above that it goes straight there.
-  other.height = 400;
-  EXPECT_THAT(outline_of(kProgram, other), HasSubstr("G00 Z400\nX-8 Y-8\nG01 X48"));
+  other.height = 350;
+  EXPECT_THAT(outline_of(kProgram, other), HasSubstr("G00 Z350\nX-8 Y-8\nG01 X48"));
 }
 
 TEST(OutlineProgram, KeepsTheClearanceOfTheMachine) {
@@ -83,7 +83,7 @@ TEST(OutlineProgram, GoesUpBetweenTheParts) {
   const std::string text =
       "M06 T101001\nS12000 M03\nG00 X0 Y0 Z50\nG01 Z0 F1000\nX10\nG00 Z50\nX300\nG01 Z0\nG00 Z50\nM02\n";
   const std::string program = outline_of(text, path);
-  EXPECT_THAT(program, HasSubstr("\nG00 Z500\nG00 X29"));
+  EXPECT_THAT(program, HasSubstr("\nG00 Z380\nG00 X29"));
 }
 
 TEST(OutlineProgram, IsRefusedWhereThereIsNothingToGoAround) {
