@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -781,58 +782,29 @@ ExitStatus run_main(int argc, char** argv) {
                        {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
 
   program.begin_group({"Programs made of this one", "Programmi ricavati da questo"});
-  const command_line::ProgramOption restart_at = program
-                                                     .add_option("--restart-at", options.restart_at, {"LINE", "RIGA"},
-                                                                 {"Write a program that goes on from this line",
-                                                                  "Scrive un programma che riprende da questa riga"})
-                                                     .excludes(until)
-                                                     .excludes(trace)
-                                                     .excludes(samples)
-                                                     .excludes(plot)
-                                                     .excludes(stock_out)
-                                                     .excludes(verify)
-                                                     .excludes(json);
-  const command_line::ProgramOption tool =
-      program
-          .add_option("--tool", options.tool, {"T", "T"},
-                      {"Write a program of the operation of this tool alone;\nT@LINE: that of this M06",
-                       "Scrive un programma della sola lavorazione di questo\nutensile; T@RIGA: quella di questa M06"})
-          .excludes(restart_at)
-          .excludes(until)
-          .excludes(trace)
-          .excludes(samples)
-          .excludes(plot)
-          .excludes(stock_out)
-          .excludes(verify)
-          .excludes(json);
-  const command_line::ProgramOption lift = program
-                                               .add_option("--lift", options.lift, {"MM", "MM"},
-                                                           {"Write the same program higher by so many mm",
-                                                            "Scrive lo stesso programma più in alto di tanti mm"})
-                                               .excludes(restart_at)
-                                               .excludes(tool)
-                                               .excludes(until)
-                                               .excludes(trace)
-                                               .excludes(samples)
-                                               .excludes(plot)
-                                               .excludes(stock_out)
-                                               .excludes(verify)
-                                               .excludes(json);
-  program
-      .add_option("--outline", options.outline, {"SHAPE", "FORMA"},
-                  {"Write a program that goes around the job:\nrectangle, hull or path",
-                   "Scrive un programma che gira intorno al lavoro:\nrectangle (rettangolo), hull (convesso) o path\n"
-                   "(contorno)"})
-      .excludes(restart_at)
-      .excludes(tool)
-      .excludes(lift)
-      .excludes(until)
-      .excludes(trace)
-      .excludes(samples)
-      .excludes(plot)
-      .excludes(stock_out)
-      .excludes(verify)
-      .excludes(json);
+  const command_line::ProgramOption restart_at = program.add_option(
+      "--restart-at", options.restart_at, {"LINE", "RIGA"},
+      {"Write a program that goes on from this line", "Scrive un programma che riprende da questa riga"});
+  const command_line::ProgramOption tool = program.add_option(
+      "--tool", options.tool, {"T", "T"},
+      {"Write a program of the operation of this tool alone;\nT@LINE: that of this M06",
+       "Scrive un programma della sola lavorazione di questo\nutensile; T@RIGA: quella di questa M06"});
+  const command_line::ProgramOption lift = program.add_option(
+      "--lift", options.lift, {"MM", "MM"},
+      {"Write the same program higher by so many mm", "Scrive lo stesso programma più in alto di tanti mm"});
+  const command_line::ProgramOption outline = program.add_option(
+      "--outline", options.outline, {"SHAPE", "FORMA"},
+      {"Write a program that goes around the job:\nrectangle, hull or path",
+       "Scrive un programma che gira intorno al lavoro:\nrectangle (rettangolo), hull (convesso) o path\n"
+       "(contorno)"});
+  // One of them, instead of a report.
+  const command_line::ProgramOption makers[] = {restart_at, tool, lift, outline};
+  for (const command_line::ProgramOption* maker = std::begin(makers); maker != std::end(makers); ++maker) {
+    for (const command_line::ProgramOption* other = std::begin(makers); other != maker; ++other)
+      maker->excludes(*other);
+    for (const command_line::ProgramOption& other : {until, trace, samples, plot, stock_out, verify, json})
+      maker->excludes(other);
+  }
   program.add_option(
       "-o,--output", options.output, command_line::kFileValue,
       {"Where to write it; else to standard output", "Dove scriverlo; altrimenti sullo standard output"});
