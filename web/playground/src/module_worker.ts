@@ -1,10 +1,11 @@
 /** The WebAssembly module in a worker, with one of its servers. */
+import { XzReadableStream } from 'xz-decompress';
 import type { Outcome } from '../../src/streams';
 import type { Changes, Command, Start } from '../../src/worker';
 
 /** What module.js leaves on the page: a page from a disk may fetch nothing, but it may have scripts. */
 interface Embedded {
-  /** isocnc.wasm, compressed with gzip, in base64. */
+  /** playground.wasm, compressed with xz, in base64. */
   wasm: string;
   /** The script of the worker. */
   worker: string;
@@ -18,7 +19,7 @@ let unpacked: Promise<ArrayBuffer> | undefined;
 
 async function unpack(base64: string): Promise<ArrayBuffer> {
   const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+  return new Response(new XzReadableStream(new Blob([bytes]).stream())).arrayBuffer();
 }
 
 /** The scripts of the page have run when all of it has been read. */
