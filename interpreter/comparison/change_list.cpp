@@ -25,16 +25,6 @@ std::string shown(double number) {
   return text == "-0" ? "0" : text;
 }
 
-std::optional<ChangedLines> lines_of(const RecordedRun& run, std::size_t begin, std::size_t end) {
-  if (begin == end) return std::nullopt;
-  ChangedLines lines{run.actions[begin].line, run.actions[begin].line};
-  for (std::size_t i = begin; i < end; ++i) {
-    lines.first = std::min<std::size_t>(lines.first, run.actions[i].line);
-    lines.last = std::max<std::size_t>(lines.last, run.actions[i].line);
-  }
-  return lines;
-}
-
 /// What comes after the last action comes where that is.
 std::size_t start_of(const RecordedRun& run, std::size_t begin) {
   return run.actions[std::min(begin, run.actions.size() - 1)].line;
@@ -52,6 +42,22 @@ bool is_same_feed(const MachineAction& a, const MachineAction& b) {
 }
 
 }  // namespace
+
+std::optional<ChangedLines> lines_of(const RecordedRun& run, std::size_t begin, std::size_t end) {
+  if (begin == end) return std::nullopt;
+  ChangedLines lines{run.actions[begin].line, run.actions[begin].line};
+  for (std::size_t i = begin; i < end; ++i) {
+    lines.first = std::min<std::size_t>(lines.first, run.actions[i].line);
+    lines.last = std::max<std::size_t>(lines.last, run.actions[i].line);
+  }
+  return lines;
+}
+
+bool is_same_alone(const RunPair& runs, const ComparisonOptions& options, const MachineAction& a,
+                   const MachineAction& b) {
+  if (!is_same_action(runs, a, b, Vec3::Zero()) || a.side != b.side) return false;
+  return !a.is_motion() || options.ignores_feed || is_same_feed(a, b);
+}
 
 std::size_t motion_count(const RecordedRun& run, std::size_t begin, std::size_t end) {
   const std::span actions = std::span(run.actions).subspan(begin, end - begin);
@@ -237,8 +243,43 @@ std::vector<BehaviorChange> ChangeList::take() {
   name_turned_frames();
   join_moved_rows();
   join_moved_blocks();
+  remove_idle_stops();
+  for (auto& [change, place] : operations_) {
+    changes_.push_back(std::move(change));
+    places_.push_back(place);
+  }
   sort();
   return std::move(changes_);
+}
+
+/// Where a spindle no longer starts, or starts in one program alone, the M05 after it stops nothing.
+void ChangeList::remove_idle_stops() {
+  const auto is_alone = [&](std::size_t change, bool is_old) {
+    const BehaviorChange& speed = changes_[change];
+    return speed.kind == ChangeKind::Speed && speed.later == 0 && (is_old ? speed.new_value : speed.old_value).empty();
+  };
+  std::vector<bool> is_idle(changes_.size());
+  for (const bool is_old : {true, false}) {
+    const RecordedRun& run = is_old ? runs_.a : runs_.b;
+    std::map<std::size_t, std::size_t> alone;  // By the action.
+    for (std::size_t i = 0; i < changes_.size(); ++i)
+      if (is_alone(i, is_old)) alone[is_old ? places_[i].a_begin : places_[i].b_begin] = i;
+    for (const auto& [action, change] : alone) {
+      std::size_t before = action;
+      if (run.actions[action].number != 5) continue;
+      while (before > 0 && run.actions[before - 1].kind != ActionKind::Spindle &&
+             run.actions[before - 1].kind != ActionKind::Tool)
+        --before;
+      const auto started = before == 0 ? alone.end() : alone.find(before - 1);
+      if (started == alone.end()) continue;
+      is_idle[change] = run.actions[before - 1].kind == ActionKind::Spindle && run.actions[before - 1].number != 5;
+    }
+  }
+  remove(is_idle);
+}
+
+void ChangeList::add_operation(BehaviorChange change, const ActionRanges& place) {
+  operations_.emplace_back(std::move(change), place);
 }
 
 /// Whether two motions are the same, each in the frame that is in force there.
@@ -402,13 +443,8 @@ void ChangeList::remove(const std::vector<bool>& is_removed) {
 bool ChangeList::is_same_block(const ActionRanges& removed, const ActionRanges& added) const {
   const std::size_t count = removed.a_end - removed.a_begin;
   if (added.b_end - added.b_begin != count) return false;
-  for (std::size_t i = 0; i < count; ++i) {
-    const MachineAction& left = a(removed.a_begin + i);
-    const MachineAction& right = b(added.b_begin + i);
-    if (!is_same_action(runs_, left, right, Vec3::Zero())) return false;
-    if (left.side != right.side) return false;
-    if (left.is_motion() && !options_.ignores_feed && !is_same_feed(left, right)) return false;
-  }
+  for (std::size_t i = 0; i < count; ++i)
+    if (!is_same_alone(runs_, options_, a(removed.a_begin + i), b(added.b_begin + i))) return false;
   return true;
 }
 

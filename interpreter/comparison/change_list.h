@@ -20,6 +20,13 @@ ChangeKind kind_of(ActionKind kind);
 /// The tool that is mounted in an action.
 std::optional<execution::ToolCode> tool_of(const RecordedRun& run, const MachineAction& action);
 
+/// The lines of a range of actions; none for an empty one.
+std::optional<ChangedLines> lines_of(const RecordedRun& run, std::size_t begin, std::size_t end);
+
+/// Whether two actions are the same, wherever they come from: with the same feed, too, unless that is ignored.
+bool is_same_alone(const RunPair& runs, const ComparisonOptions& options, const MachineAction& a,
+                   const MachineAction& b);
+
 /// How many motions a range of actions has.
 std::size_t motion_count(const RecordedRun& run, std::size_t begin, std::size_t end);
 
@@ -45,6 +52,9 @@ class ChangeList {
   void compare_feeds_along(const AlignedPiece& piece);
   /// Feeds of motions that do not follow each other in both runs.
   void compare_feeds_alone(std::size_t i, std::size_t k);
+
+  /// A change of all from a tool change to the next one, at a place in the runs without it.
+  void add_operation(BehaviorChange change, const ActionRanges& place);
 
   /// All changes, in the order of the runs.
   std::vector<BehaviorChange> take();
@@ -74,6 +84,7 @@ class ChangeList {
   void join_moved_blocks();
   void join_moved_rows();
   bool is_one_row(std::size_t first, std::size_t next) const;
+  void remove_idle_stops();
   void remove(const std::vector<bool>& is_removed);
   bool is_same_block(const ActionRanges& removed, const ActionRanges& added) const;
   void sort();
@@ -86,6 +97,7 @@ class ChangeList {
   std::optional<OpenValue> feed_;
   std::optional<OpenValue> side_;
   std::vector<std::pair<std::size_t, std::size_t>> overlaps_;
+  std::vector<std::pair<BehaviorChange, ActionRanges>> operations_;
 };
 
 }  // namespace isocnc::comparison

@@ -6,7 +6,8 @@
 
 #include "interpreter/comparison/alignment.h"
 #include "interpreter/comparison/change_list.h"
-#include "interpreter/comparison/part_changes.h"
+#include "interpreter/comparison/named_changes.h"
+#include "interpreter/comparison/operation_order.h"
 
 namespace isocnc::comparison {
 
@@ -15,9 +16,14 @@ using geometry::Vec3;
 namespace {
 
 /// Aligns two runs and names what differs, `a` being the old one.
-std::vector<BehaviorChange> changes_between(const RunPair& runs, const ComparisonOptions& options) {
+std::vector<BehaviorChange> changes_between(const RunPair& all, const ComparisonOptions& options) {
+  std::optional<OrderedRuns> ordered = in_same_order(all, options);
+  const RunPair runs = ordered ? RunPair{ordered->a, ordered->b, all.tolerance, all.budget} : all;
   const std::vector<AlignedPiece> pieces = align(runs);
   ChangeList changes(runs, options);
+  if (ordered)
+    for (OperationChange& operation : ordered->changes)
+      changes.add_operation(std::move(operation.change), {operation.action, operation.action, 0, 0});
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const AlignedPiece& piece = pieces[i];
     if (piece.kind == AlignedPiece::Kind::Same) {

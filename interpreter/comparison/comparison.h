@@ -54,10 +54,13 @@ struct BehaviorChange {
   std::optional<geometry::Vec3> shift;  ///< From old to new, mm, if all is moved by the same.
   double later = 0;    ///< Function, Dwell, Speed, Tool: how much farther on the way the new program does the same, mm.
   double seconds = 0;  ///< How much longer the new program takes for its part, until it does what follows.
-  std::string old_value;  ///< As programs write it: `F4000`, `S12000 M03`; empty for nothing.
+  /// As programs write it: `F4000`, `S12000 M03`; empty for nothing. Reordered, of an operation: the tool before it,
+  /// empty for the first one.
+  std::string old_value;
   std::string new_value;
   std::size_t old_motions = 0;
   std::size_t new_motions = 0;
+  bool is_operation = false;  ///< Added, Removed, Reordered: all from a tool change to the next one.
   /// Path: the line of the IF in the program that takes it; Frame: that of its G in each program. From 0.
   std::optional<std::size_t> old_cause;
   std::optional<std::size_t> new_cause;

@@ -42,6 +42,11 @@ constexpr Text kMotions{"{} motions", "{} movimenti"};
 constexpr Text kAdded{"added: {}", "aggiunto: {}"};
 constexpr Text kRemoved{"removed: {}", "tolto: {}"};
 constexpr Text kReordered{"order changed", "ordine cambiato"};
+constexpr Text kReorderedOperation{"order changed: now {}, was {}", "ordine cambiato: ora {}, era {}"};
+constexpr Text kIsFirst{"the first one", "la prima"};
+constexpr Text kIsAfter{"after {}", "dopo {}"};
+constexpr Text kOperationAdded{"added: operation of {}, {}", "aggiunta: lavorazione di {}, {}"};
+constexpr Text kOperationRemoved{"removed: operation of {}, {}", "tolta: lavorazione di {}, {}"};
 constexpr Text kInstead{"{} instead of {}", "{} invece di {}"};
 constexpr Text kFrame{"moved by {}: the frame is elsewhere", "spostato di {}: il sistema di riferimento è altrove"};
 constexpr Text kFrameOf{"moved by {}: the frame of line {} is elsewhere",
@@ -199,6 +204,18 @@ std::string frame_in_words(const BehaviorChange& change, Language language) {
                           : dialect::format(kFrame, language, shift);
 }
 
+std::string operation_in_words(const BehaviorChange& change, Language language) {
+  const auto place = [&](const std::string& tool) {
+    return tool.empty() ? std::string(kIsFirst.in(language)) : dialect::format(kIsAfter, language, tool);
+  };
+  if (change.kind == ChangeKind::Reordered)
+    return dialect::format(kReorderedOperation, language, place(change.new_value), place(change.old_value));
+  const bool is_added = change.kind == ChangeKind::Added;
+  return dialect::format(is_added ? kOperationAdded : kOperationRemoved, language,
+                         running::tool_name(change.tool().value()),
+                         shown_count(is_added ? change.new_motions : change.old_motions, language));
+}
+
 /// Red for what is removed, green for what is added, yellow for what is otherwise.
 std::string_view color_of(ChangeKind kind) {
   if (kind == ChangeKind::Removed) return "\x1b[31m";
@@ -238,6 +255,7 @@ OrderedJson lines_json(const std::optional<ChangedLines>& lines) {
 std::string_view name_of(ChangeKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
 
 std::string in_words(const BehaviorChange& change, Language language) {
+  if (change.is_operation) return operation_in_words(change, language);
   switch (change.kind) {
     case ChangeKind::Moved:
       return moved_in_words(change, language);

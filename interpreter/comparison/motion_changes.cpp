@@ -1,4 +1,4 @@
-#include "interpreter/comparison/motion_changes.h"
+#include "interpreter/comparison/named_changes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "interpreter/comparison/part_changes.h"
+#include "interpreter/comparison/named_changes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include "interpreter/comparison/action_path.h"
 #include "interpreter/comparison/effect_steps.h"
 #include "interpreter/comparison/gap_steps.h"
-#include "interpreter/comparison/motion_changes.h"
 
 namespace isocnc::comparison {
 

@@ -475,6 +475,54 @@ TEST_F(LargeDifferences, BlockElsewhere) {
   EXPECT_EQ(changes(other), "reordered 505-604|1405-1504: order changed\n");
 }
 
+/// Random operations, in another order: those that stay are as many actions as possible, and the others alone are told.
+TEST(OperationsInAnotherOrder, AreEachOneChange) {
+  support::Random random(11);
+  for (int round = 0; round < (support::kTriesAll ? 300 : 30); ++round) {
+    const int count = random.between(2, 6);
+    std::vector<std::string> texts;
+    for (int tool = 1; tool <= count; ++tool) {
+      RandomPart part = random_part(random, random.between(1, 30), random.one_in(3));
+      part.tool = 101000 + tool;
+      // None begins where another one ends: going nowhere would be no motion there.
+      part.steps.insert(part.steps.begin(), {.kind = PartStep::Kind::Rapid, .to = {1000 * tool, 0, 50'000}});
+      std::string text = written(part).text;
+      text.erase(text.find("M02"));
+      texts.push_back(text + (part.is_five_axis ? "G01 B0 C0 F1000\nG48\n" : "") + "M05\n");
+    }
+    std::vector<std::size_t> order(texts.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t i = order.size(); i-- > 1;)
+      std::swap(order[i], order[static_cast<std::size_t>(random.between(0, static_cast<int>(i)))]);
+    const bool is_lost = count > 2 && random.one_in(4);
+    std::string old_program;
+    std::string new_program;
+    for (const std::string& text : texts) old_program += text;
+    for (const std::size_t i : order)
+      if (!is_lost || i != 0) new_program += texts[i];
+    const std::vector<BehaviorChange> changes = symmetric_changes(old_program + "M02\n", new_program + "M02\n");
+    std::size_t longest = 0;  // Of operations that keep their order.
+    for (unsigned kept = 0; kept < 1U << texts.size(); ++kept) {
+      std::size_t last = 0;
+      std::size_t row = 0;
+      bool keeps = true;
+      for (const std::size_t i : order) {
+        if ((kept >> i & 1U) == 0 || (is_lost && i == 0)) continue;
+        keeps = keeps && (row == 0 || i > last);
+        last = i;
+        ++row;
+      }
+      if (keeps) longest = std::max(longest, row);
+    }
+    EXPECT_GE(changes.size(), texts.size() - longest) << shown(changes);
+    EXPECT_LT(changes.size(), texts.size()) << shown(changes);
+    EXPECT_TRUE(
+        std::all_of(changes.begin(), changes.end(), [](const BehaviorChange& each) { return each.is_operation; }))
+        << shown(changes) << old_program << "\n--\n"
+        << new_program;
+  }
+}
+
 TEST_F(LargeDifferences, TooLargeToLookInto) {
   support::Random random(8);
   const RandomPart other = random_part(random, 3000, true);

@@ -42,6 +42,17 @@ std::string square(const std::string& what, const std::string& with) { return re
 const std::string kRow =
     "M06 T101001\nG91\nG00 X10 Y5\nG01 Z-3 F500\nG00 Z3\nX20\nG01 Z-3\nG00 Z3\nX20\nG01 Z-3\nG00 Z3\nG90\nX0 Y0\nM02\n";
 
+/// Operations on parts of a table, each by its tool: its lines are 9, from its tool change to its M05.
+std::string operations(const std::string& tools) {
+  std::string program;
+  for (const char tool : tools) {
+    const int x = 100 * (tool - '0');
+    program += fmt::format("M06 T10100{}\nS{}000 M03\nG00 X{} Y5\nZ40\nG01 Z-3 F{}000\nX{}\nY9\nG00 Z50\nM05\n", tool,
+                           tool, x, tool, x + 40);
+  }
+  return program + "M02\n";
+}
+
 const ComparisonCase kCases[] = {
     // Nothing that the machine would notice.
     {"Itself", kSquare, kSquare, ""},
@@ -158,12 +169,43 @@ const ComparisonCase kCases[] = {
     {"IncrementsSwapped", kHead + "G91\nX50 Y50\nX100 Y0\nX9 Y7\nM02\n", kHead + "G91\nX100 Y0\nX50 Y50\nX9 Y7\nM02\n",
      "reordered 5-6|5-6: order changed\n"},
 
+    // Operations, each from a tool change to the next one.
+    {"OperationsSwapped", operations("123"), operations("132"),
+     "reordered 19-27|10-18: order changed: now after T101001, was after T101002\n"},
+    {"OperationsSwappedAtTheStart", operations("123"), operations("213"),
+     "reordered 10-18|1-9: order changed: now the first one, was after T101001\n"},
+    {"OperationMovedToTheEnd", operations("1234"), operations("2341"),
+     "reordered 1-9|28-36: order changed: now after T101004, was the first one\n"},
+    {"OperationLost", operations("123"), operations("13"),
+     "removed 10-18|-: removed: operation of T101002, 6 motions\n"},
+    {"LastOperationLost", operations("123"), operations("12"),
+     "removed 19-27|-: removed: operation of T101003, 6 motions\n"},
+    {"OperationTwice", operations("123"), operations("1223"),
+     "added -|19-27: added: operation of T101002, 6 motions\n"},
+    {"OperationMovedAndOneChanged", operations("1234"), replaced(operations("2341"), "F4000", "F4500"),
+     "reordered 1-9|28-36: order changed: now after T101004, was the first one\n"
+     "feed 32-34|23-25: F4500 instead of F4000\n"},
+    {"OperationLostAndMotionsOfAnotherOne", operations("12"), replaced(operations("1"), "G00 Z50", "X150\nG00 Z50"),
+     "added -|8: added: 1 motion\nmoved 8|9: moved by X10\nremoved 10-18|-: removed: operation of T101002, 6 "
+     "motions\n"},
+    {"ToolsSwapped", operations("12"), replaced(replaced(operations("12"), "T101001", "T101003"), "T101002", "T101001"),
+     "tool 1|1: T101003 instead of T101001\ntool 10|10: T101001 instead of T101002\n"},
+    {"ToolChangeLost", operations("12"), replaced(operations("12"), "M06 T101002\n", ""),
+     "tool 10|-: removed: T101002\n"},
+    {"FirstToolChangeLost", operations("12"), replaced(operations("12"), "M06 T101001\n", ""),
+     "tool 1|-: removed: T101001\nend 3-19|2: ends with ISO044 instead of M02: from here on 0 motions instead of 12\n"},
+
     // What is no motion.
     {"Feed", kSquare, square("F2000", "F3000"), "feed 4-8|4-8: F3000 instead of F2000\n"},
     {"FeedOnTheWay", kSquare, square("X100\n", "X40\nX100 F3000\nF2000\n"), "feed 5|6: F3000 instead of F2000\n"},
     {"RapidInsteadOfFeed", kHead + "G01 X50 F500\nM02\n", kHead + "G00 X50\nM02\n", "feed 4|4: G00 instead of F500\n"},
     {"Speed", kSquare, square("S12000", "S9000"), "speed 2|2: S9000 M03 instead of S12000 M03\n"},
     {"SpindleStop", kSquare, square("G00 Z40\nM02", "G00 Z40\nM05\nM02"), "speed -|10: added: M05\n"},
+    {"SpindleStartLost", kSquare.substr(0, kSquare.size() - 4) + "M05\nX9\nM02\n",
+     replaced(kSquare.substr(0, kSquare.size() - 4) + "M05\nX9\nM02\n", "S12000 M03\n", ""),
+     "speed 2|-: removed: S12000 M03\n"},
+    {"SpindleStartAndStopOfTwo", kHead + "M05\nS9000 M03\nX50\nM05\nM02\n", kHead + "X50\nM05\nM02\n",
+     "speed 4|-: removed: M05\nspeed 5|-: removed: S9000 M03\n"},
     {"Tool", kSquare, square("T101001", "T101002"), "tool 1|1: T101002 instead of T101001\n"},
     {"Function", kSquare, square("G00 Z40\nM02", "G00 Z40\nM100 P1=2\nM02"), "function -|10: added: M100 P1=2\n"},
     {"Parameter", kSquare + "", square("G00 Z40\nM02", "G00 Z40\nM100 P1=3\nM02"), "function -|10: added: M100 P1=3\n"},

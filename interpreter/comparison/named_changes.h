@@ -7,6 +7,10 @@
 
 namespace isocnc::comparison {
 
+/// Names what differs in a part: an end before that of the other run, an IF that one of them takes, another order, or
+/// else its motions and what the machine does between them.
+void name_part(ChangeList& changes, const DifferentPart& part);
+
 /// Names how one motion goes otherwise than the other one, if it does. Both end in the same place but for a shift.
 void name_way(ChangeList& changes, std::size_t i, std::size_t k, const geometry::Vec3& shift);
 

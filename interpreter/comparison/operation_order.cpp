@@ -1,0 +1,352 @@
+#include "interpreter/comparison/operation_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "interpreter/comparison/change_list.h"
+
+namespace isocnc::comparison {
+
+namespace {
+
+/// Compared with each other, more would take too long.
+constexpr std::size_t kMaxOperations = 2000;
+
+/// From a tool change to the next one or to the end; the action that ends the run is in none.
+struct Operation {
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  std::size_t partner = kNone;  ///< Index of the same operation of the other run.
+  bool is_exact = false;        ///< The partner does the same, but for its way there.
+};
+
+std::vector<Operation> operations_of(const RecordedRun& run) {
+  std::vector<Operation> operations;
+  const std::size_t last = run.actions.size() - 1;
+  for (std::size_t i = 0; i < last; ++i)
+    if (run.actions[i].kind == ActionKind::Tool) operations.push_back({i, last});
+  for (std::size_t i = 1; i < operations.size(); ++i) operations[i - 1].end = operations[i].begin;
+  return operations;
+}
+
+const execution::ToolCode& tool_at(const RecordedRun& run, const Operation& operation) {
+  return run.tools[run.actions[operation.begin].tool].code;
+}
+
+std::string tool_before(const RecordedRun& run, const std::vector<Operation>& operations, std::size_t index) {
+  return index == 0 ? "" : running::tool_name(tool_at(run, operations[index - 1]));
+}
+
+/// Finds which operations of two runs belong together, and brings them into one order.
+class OperationSorter {
+ public:
+  OperationSorter(const RunPair& runs, const ComparisonOptions& options)
+      : runs_(runs), options_(options), of_a_(operations_of(runs.a)), of_b_(operations_of(runs.b)) {}
+
+  std::optional<OrderedRuns> sort() {
+    if (of_a_.size() > kMaxOperations || of_b_.size() > kMaxOperations || has_same_tools()) return std::nullopt;
+    pair_exact();
+    if (!pair_rest()) return std::nullopt;
+    const std::vector<bool> stays = staying();
+    OrderedRuns ordered{.a = runs_.a, .b = runs_.b, .changes = {}};
+    ordered.a.actions = {runs_.a.actions.begin(), runs_.a.actions.begin() + first(of_a_)};
+    ordered.b.actions = {runs_.b.actions.begin(), runs_.b.actions.begin() + first(of_b_)};
+    std::vector<std::size_t> place_of_a(of_a_.size() + 1);  // Where each begins now.
+    std::vector<std::size_t> place_of_b(of_b_.size() + 1);
+    for (std::size_t i = 0; i < of_a_.size(); ++i) {
+      const std::size_t partner = of_a_[i].partner;
+      place_of_a[i] = ordered.a.actions.size();
+      if (partner == Operation::kNone) continue;
+      place_of_b[partner] = ordered.b.actions.size();
+      append(runs_.a, of_a_[i], ordered.a);
+      append(runs_.b, of_b_[partner], ordered.b);
+      if (of_a_[i].is_exact) {
+        // They differ in the way there at most, which follows from the order.
+        for (std::size_t k = place_of_b[partner], j = place_of_a[i]; k < ordered.b.actions.size(); ++k, ++j) {
+          if (!ordered.b.actions[k].is_rapid) continue;
+          ordered.b.actions[k].from = ordered.a.actions[j].from;
+          ordered.b.actions[k].to = ordered.a.actions[j].to;
+        }
+      }
+      if (!stays[i]) ordered.changes.push_back({moved(i), place_of_a[i]});
+    }
+    for (std::size_t i = 0; i < of_a_.size(); ++i)
+      if (of_a_[i].partner == Operation::kNone)
+        ordered.changes.push_back({only(ChangeKind::Removed, i), place_of_a[i]});
+    for (std::size_t k = 0; k < of_b_.size(); ++k) {
+      if (of_b_[k].partner != Operation::kNone) continue;
+      place_of_b[k] = ordered.b.actions.size();
+      const std::size_t after = k + 1 < of_b_.size() ? of_b_[k + 1].partner : Operation::kNone;
+      ordered.changes.push_back(
+          {only(ChangeKind::Added, k), after == Operation::kNone ? ordered.a.actions.size() : place_of_a[after]});
+    }
+    if (ordered.changes.empty()) return std::nullopt;
+    finish(runs_.a, of_a_, place_of_a, ordered.a);
+    finish(runs_.b, of_b_, place_of_b, ordered.b);
+    return ordered;
+  }
+
+ private:
+  using Difference = std::vector<MachineAction>::difference_type;
+
+  static Difference first(const std::vector<Operation>& operations) {
+    return static_cast<Difference>(operations.empty() ? 0 : operations[0].begin);
+  }
+
+  bool has_same_tools() const {
+    return std::equal(of_a_.begin(), of_a_.end(), of_b_.begin(), of_b_.end(),
+                      [&](const Operation& left, const Operation& right) {
+                        return tool_at(runs_.a, left) == tool_at(runs_.b, right);
+                      });
+  }
+
+  /// What both do before the first tool change.
+  bool has_same_prologue() const {
+    const std::size_t a_count = of_a_.empty() ? runs_.a.actions.size() - 1 : of_a_[0].begin;
+    const std::size_t b_count = of_b_.empty() ? runs_.b.actions.size() - 1 : of_b_[0].begin;
+    return a_count == b_count && is_same({0, a_count}, {0, b_count});
+  }
+
+  /// Whether both do the same, but for where the axes stand that the way there leaves where they are.
+  bool is_same(const Operation& left, const Operation& right) const {
+    bool is_on_the_way = true;
+    bool has_other_way = false;
+    for (std::size_t i = left.begin, k = right.begin; i < left.end; ++i, ++k) {
+      const MachineAction& one = runs_.a.actions[i];
+      const MachineAction& other = runs_.b.actions[k];
+      if (is_same_alone(runs_, options_, one, other)) {
+        if (one.is_motion()) is_on_the_way = false;
+      } else if (is_on_the_way && goes_along(one, other)) {
+        has_other_way = true;
+      } else {
+        return false;
+      }
+    }
+    return !has_other_way || !is_on_the_way;
+  }
+
+  /// Whether two rapids take the axes that they move to the same places.
+  bool goes_along(const MachineAction& one, const MachineAction& other) const {
+    if (!one.is_rapid || !other.is_rapid || one.is_by_joints || other.is_by_joints) return false;
+    const auto is_equal = [&](double left_from, double left_to, double right_from, double right_to) {
+      return std::abs(left_to - right_to) <= options_.tolerance || (left_from == left_to && right_from == right_to);
+    };
+    for (int axis = 0; axis < 3; ++axis)
+      if (!is_equal(one.from.tip[axis], one.to.tip[axis], other.from.tip[axis], other.to.tip[axis])) return false;
+    return is_equal(one.from.b, one.to.b, other.from.b, other.to.b) &&
+           is_equal(one.from.c, one.to.c, other.from.c, other.to.c);
+  }
+
+  void pair_exact() {
+    std::map<std::pair<execution::ToolCode, std::size_t>, std::vector<std::size_t>> known;
+    for (std::size_t k = 0; k < of_b_.size(); ++k)
+      known[{tool_at(runs_.b, of_b_[k]), of_b_[k].end - of_b_[k].begin}].push_back(k);
+    for (std::size_t i = 0; i < of_a_.size(); ++i) {
+      for (const std::size_t k : known[{tool_at(runs_.a, of_a_[i]), of_a_[i].end - of_a_[i].begin}]) {
+        if (of_b_[k].partner != Operation::kNone || !is_same(of_a_[i], of_b_[k])) continue;
+        pair(i, k);
+        of_a_[i].is_exact = of_b_[k].is_exact = true;
+        break;
+      }
+    }
+  }
+
+  void pair(std::size_t i, std::size_t k) {
+    of_a_[i].partner = k;
+    of_b_[k].partner = i;
+  }
+
+  static std::vector<std::size_t> alone(const std::vector<Operation>& operations) {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < operations.size(); ++i)
+      if (operations[i].partner == Operation::kNone) indices.push_back(i);
+    return indices;
+  }
+
+  /// Whether an operation that only one run has is missing in the other one, and not only its tool change: then the
+  /// operation before it would have its actions there.
+  static bool is_missing(const std::vector<Operation>& operations, const std::vector<Operation>& others,
+                         std::size_t index) {
+    const auto size = [](const Operation& operation) { return operation.end - operation.begin; };
+    if (index == 0 || operations[index - 1].partner == Operation::kNone) return true;
+    const Operation& before = operations[index - 1];
+    return size(others[before.partner]) <= size(before) + size(operations[index]) / 2;
+  }
+
+  /// Those that are otherwise keep their order; false where it is not clear which of them belong together.
+  bool pair_rest() {
+    const std::vector<std::size_t> a_alone = alone(of_a_);
+    const std::vector<std::size_t> b_alone = alone(of_b_);
+    if (a_alone.size() == b_alone.size()) {
+      for (std::size_t i = 0; i < a_alone.size(); ++i) pair(a_alone[i], b_alone[i]);
+      return true;
+    }
+    pair_by_tool(a_alone, b_alone);
+    const std::vector<std::size_t> a_left = alone(of_a_);
+    const std::vector<std::size_t> b_left = alone(of_b_);
+    if (!a_left.empty() && !b_left.empty()) return false;
+    if (of_a_.empty() || of_b_.empty() || !has_same_prologue()) return false;
+    return std::all_of(a_left.begin(), a_left.end(), [&](std::size_t i) { return is_missing(of_a_, of_b_, i); }) &&
+           std::all_of(b_left.begin(), b_left.end(), [&](std::size_t k) { return is_missing(of_b_, of_a_, k); });
+  }
+
+  /// Pairs as many operations of the same tools as possible, in their order.
+  void pair_by_tool(const std::vector<std::size_t>& a_alone, const std::vector<std::size_t>& b_alone) {
+    const std::size_t columns = b_alone.size() + 1;
+    std::vector<std::size_t> best((a_alone.size() + 1) * columns);  // Of the rest from each pair of places on.
+    const auto is_same_tool = [&](std::size_t i, std::size_t k) {
+      return tool_at(runs_.a, of_a_[a_alone[i]]) == tool_at(runs_.b, of_b_[b_alone[k]]);
+    };
+    for (std::size_t i = a_alone.size(); i-- > 0;)
+      for (std::size_t k = b_alone.size(); k-- > 0;)
+        best[i * columns + k] = is_same_tool(i, k) ? best[(i + 1) * columns + k + 1] + 1
+                                                   : std::max(best[(i + 1) * columns + k], best[i * columns + k + 1]);
+    for (std::size_t i = 0, k = 0; i < a_alone.size() && k < b_alone.size();) {
+      if (is_same_tool(i, k)) {
+        pair(a_alone[i++], b_alone[k++]);
+      } else {
+        best[(i + 1) * columns + k] >= best[i * columns + k + 1] ? ++i : ++k;
+      }
+    }
+  }
+
+  /// The operations of a that keep their order in b: as many actions as possible.
+  std::vector<bool> staying() const {
+    std::vector<std::size_t> best(of_a_.size());  // Actions of the heaviest row that ends with each.
+    std::vector<std::size_t> before(of_a_.size(), Operation::kNone);
+    std::size_t last = Operation::kNone;
+    for (std::size_t i = 0; i < of_a_.size(); ++i) {
+      if (of_a_[i].partner == Operation::kNone) continue;
+      for (std::size_t j = 0; j < i; ++j) {
+        if (of_a_[j].partner == Operation::kNone || of_a_[j].partner > of_a_[i].partner || best[j] <= best[i]) continue;
+        best[i] = best[j];
+        before[i] = j;
+      }
+      best[i] += of_a_[i].end - of_a_[i].begin;
+      if (last == Operation::kNone || best[i] > best[last]) last = i;
+    }
+    std::vector<bool> stays(of_a_.size());
+    for (; last != Operation::kNone; last = before[last]) stays[last] = true;
+    return stays;
+  }
+
+  static BehaviorChange described(ChangeKind kind) {
+    BehaviorChange change;
+    change.kind = kind;
+    return change;
+  }
+
+  void describe_old(const RecordedRun& run, const Operation& operation, BehaviorChange& change) const {
+    change.old_lines = lines_of(run, operation.begin, operation.end);
+    change.old_start = run.actions[operation.begin].line;
+    change.old_motions = motion_count(run, operation.begin, operation.end);
+    change.old_tool = tool_at(run, operation);
+    change.seconds -= run.actions[operation.end].start - run.actions[operation.begin].start;
+  }
+  void describe_new(const RecordedRun& run, const Operation& operation, BehaviorChange& change) const {
+    change.new_lines = lines_of(run, operation.begin, operation.end);
+    change.new_start = run.actions[operation.begin].line;
+    change.new_motions = motion_count(run, operation.begin, operation.end);
+    change.new_tool = tool_at(run, operation);
+    change.seconds += run.actions[operation.end].start - run.actions[operation.begin].start;
+  }
+
+  BehaviorChange moved(std::size_t i) const {
+    BehaviorChange change = described(ChangeKind::Reordered);
+    describe_old(runs_.a, of_a_[i], change);
+    describe_new(runs_.b, of_b_[of_a_[i].partner], change);
+    change.is_operation = true;
+    change.old_value = tool_before(runs_.a, of_a_, i);
+    change.new_value = tool_before(runs_.b, of_b_, of_a_[i].partner);
+    return change;
+  }
+
+  /// An operation of a alone, or of b.
+  BehaviorChange only(ChangeKind kind, std::size_t index) const {
+    BehaviorChange change = described(kind);
+    change.is_operation = true;
+    const bool is_of_a = kind == ChangeKind::Removed;
+    if (is_of_a) {
+      describe_old(runs_.a, of_a_[index], change);
+      change.new_start = runs_.b.actions.back().line;
+    } else {
+      describe_new(runs_.b, of_b_[index], change);
+      change.old_start = runs_.a.actions.back().line;
+    }
+    // The other run comes to it where it does what follows.
+    const std::vector<Operation>& own = is_of_a ? of_a_ : of_b_;
+    const std::vector<Operation>& other = is_of_a ? of_b_ : of_a_;
+    std::size_t next = index + 1;
+    while (next < own.size() && own[next].partner == Operation::kNone) ++next;
+    if (next == own.size()) return change;
+    const std::size_t action = other[own[next].partner].begin;
+    (is_of_a ? change.new_start : change.old_start) = (is_of_a ? runs_.b : runs_.a).actions[action].line;
+    return change;
+  }
+
+  /// Adds an operation, which begins where the one before it ends now.
+  static void append(const RecordedRun& run, const Operation& operation, RecordedRun& ordered) {
+    const auto begin = run.actions.begin() + static_cast<Difference>(operation.begin);
+    const auto end = run.actions.begin() + static_cast<Difference>(operation.end);
+    const auto is_motion = [](const MachineAction& action) { return action.is_motion(); };
+    const auto before = std::find_if(ordered.actions.rbegin(), ordered.actions.rend(), is_motion);
+    const bool has_place = before != ordered.actions.rend();
+    const geometry::Pose place = has_place ? before->to : geometry::Pose{};
+    const std::size_t count = ordered.actions.size();
+    ordered.actions.insert(ordered.actions.end(), begin, end);
+    const auto motion =
+        std::find_if(ordered.actions.begin() + static_cast<Difference>(count), ordered.actions.end(), is_motion);
+    if (has_place && motion != ordered.actions.end() && motion->arc == MachineAction::kNone) motion->from = place;
+  }
+
+  /// Adds the end, and brings times and IFs into the new order.
+  static void finish(const RecordedRun& run, const std::vector<Operation>& operations,
+                     const std::vector<std::size_t>& places, RecordedRun& ordered) {
+    ordered.actions.push_back(run.actions.back());
+    const auto duration = [&](std::size_t i) {
+      return i + 1 < run.actions.size() ? run.actions[i + 1].start - run.actions[i].start : 0;
+    };
+    const std::size_t prologue = operations.empty() ? run.actions.size() - 1 : operations[0].begin;
+    std::vector<std::size_t> index(run.actions.size(), ordered.actions.size() - 1);  // Where each action stands now.
+    std::iota(index.begin(), index.begin() + static_cast<Difference>(prologue), std::size_t{0});
+    std::vector<double> durations(ordered.actions.size());
+    for (std::size_t i = 0; i < prologue; ++i) durations[i] = duration(i);
+    for (std::size_t operation = 0; operation < operations.size(); ++operation) {
+      const auto [begin, end, partner, is_exact] = operations[operation];
+      for (std::size_t i = begin; i < end; ++i) {
+        index[i] = places[operation] + (partner == Operation::kNone ? 0 : i - begin);
+        if (partner != Operation::kNone) durations[index[i]] = duration(i);
+      }
+    }
+    double start = 0;
+    for (std::size_t i = 0; i < durations.size(); ++i) {
+      ordered.actions[i].start = start;
+      start += durations[i];
+    }
+    for (ActionDecision& decision : ordered.decisions)
+      decision.action = index[std::min(decision.action, index.size() - 1)];
+    std::stable_sort(
+        ordered.decisions.begin(), ordered.decisions.end(),
+        [](const ActionDecision& left, const ActionDecision& right) { return left.action < right.action; });
+  }
+
+  const RunPair& runs_;
+  const ComparisonOptions& options_;
+  std::vector<Operation> of_a_;
+  std::vector<Operation> of_b_;
+};
+
+}  // namespace
+
+std::optional<OrderedRuns> in_same_order(const RunPair& runs, const ComparisonOptions& options) {
+  return OperationSorter(runs, options).sort();
+}
+
+}  // namespace isocnc::comparison
