@@ -18,7 +18,16 @@ struct Adder {
     }
     TimedSection& section = sections[line];
     section.seconds += timed.duration + timed.wait;
-    section.mm += simulation::tip_length(timed, machine);
+    if (timed.move) add(*timed.move, std::get<running::MoveEvent>(timed.event.what), section);
+  }
+
+  void add(const kinematics::Move& move, const running::MoveEvent& event, TimedSection& section) const {
+    const kinematics::TipTravel travel = kinematics::tip_travel(machine.motion, move);
+    section.mm += travel.length;
+    if (event.kind == execution::MoveKind::Rapid) return;
+    if (!section.has_feed_move) section.cut = travel.extents;
+    section.has_feed_move = true;
+    for (std::size_t axis = 0; axis < section.cut.size(); ++axis) section.cut[axis].include(travel.extents[axis]);
   }
 
   const simulation::TimedMachine& machine;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <mutex>
 #include <string>
 
+#include "interpreter/geometry/range.h"
 #include "lsp/queries/timed_program.h"
 
 namespace isocnc::queries {
@@ -17,6 +19,8 @@ struct TimedSection {
   double start = 0;    ///< In seconds from the start of the program.
   double seconds = 0;  ///< The duration of the section in seconds.
   double mm = 0;       ///< The length of the tool tip's path in mm.
+  bool has_feed_move = false;
+  std::array<geometry::Range, 3> cut;  ///< Of the tip in feed moves, machine frame, mm; meaningless without any.
 };
 
 /// The completed tool sections by the line of their M06. Line 0, unless it has an M06, stands for the part before the

@@ -225,6 +225,63 @@ TEST(Folding, GivesNoMoreThanTheClientTakes) {
   EXPECT_EQ(folds_of("; uno\n; due\n\nM06 T101001\nM02\n", capabilities), "4-5 region\n");
 }
 
+TEST(Folding, ShowsToolAndTimeInPlaceOfTheLines) {
+  const Json capabilities = {{"textDocument", {{"foldingRange", {{"foldingRange", {{"collapsedText", true}}}}}}}};
+  Session session;
+  session.start(capabilities);
+  session.open(kUri,
+               "; sgrossatura\nM06 T101001\nG29 B90\nG04 P100\nG27\n; nota\n; seconda\nM06 T101002\nG04 P20\nM02\n");
+  std::string drawing;
+  for (const Json& fold : session.request("textDocument/foldingRange", document_params()))
+    drawing += fmt::format("{} {}\n", fold["startLine"].get<int>() + 1, fold.value("collapsedText", "-"));
+  // A tool change takes 8 s.
+  EXPECT_EQ(drawing, "1 T101001 sgrossatura, 0:01:48\n3 G29 B90\n6 -\n6 T101002 nota, 0:00:28\n");
+  session.edit(kUri, 2, {change(3, 0, 3, 8, "X1.2.3")});
+  const Json after = session.request("textDocument/foldingRange", document_params());
+  EXPECT_EQ(after[0]["collapsedText"], "T101001 sgrossatura") << "the run does not come to its end";
+}
+
+/// The operations of a program: a line for each, with times in seconds, and the room in mm.
+std::string operations_of(Session& session) {
+  std::string drawing;
+  const Json answer = session.request("isocnc/operations", document_params());
+  for (const Json& each : answer["operations"]) {
+    drawing +=
+        fmt::format("{} {}-{} {} ({})", each["line"].get<int>() + 1, each["firstLine"].get<int>() + 1,
+                    each["lastLine"].get<int>() + 1, each["tool"].get<std::string>(), each["name"].get<std::string>());
+    if (each["seconds"].is_null()) {
+      drawing += " not run\n";
+      continue;
+    }
+    drawing += fmt::format(" from {:.0f} s, {:.0f} s, {:.0f} mm", each["start"].get<double>(),
+                           each["seconds"].get<double>(), each["length"].get<double>());
+    for (const auto& [axis, range] : each["extents"].items())
+      drawing += fmt::format(" {}{:.0f}..{:.0f}", axis, range[0].get<double>(), range[1].get<double>());
+    drawing += "\n";
+  }
+  return drawing;
+}
+
+TEST(Operations, HaveTheirTimePathAndRoom) {
+  Session session;
+  session.start();
+  session.open(
+      kUri,
+      "G92 X100 Y50 Z0\n; tasca\nM06 T101001\nG00 X10 Y5 Z20\nG01 Z-3 F60\nX40\nG00 Z20\n; sosta\nM06 T101002\n"
+      "G04 P30\nM06 T101001\nG00 X0\nG02 X20 Y5 R10 F600\nM02\n");
+  const std::string drawing = operations_of(session);
+  EXPECT_THAT(drawing, testing::MatchesRegex(
+                           "3 2-7 T101001 \\(tasca\\) from 0 s, 6[0-9] s, [0-9]+ mm X10..40 Y5..5 Z-3..20\n"
+                           "9 8-10 T101002 \\(sosta\\) from 6[0-9] s, 38 s, 0 mm\n"
+                           "11 11-14 T101001 \\(\\) from 10[0-9] s, 1[0-9] s, [0-9]+ mm X0..20 Y5..15 Z20..20\n"))
+      << drawing;
+  session.edit(kUri, 2, {change(9, 0, 9, 7, "G04 P1.2.3")});
+  EXPECT_THAT(operations_of(session),
+              testing::EndsWith("9 8-10 T101002 (sosta) not run\n11 11-14 T101001 () not run\n"));
+  session.open(kOtherUri, "G00 X1\nM02\n");
+  EXPECT_EQ(session.request("isocnc/operations", document_params(kOtherUri))["operations"], Json::array());
+}
+
 struct Grown {
   const char* program;
   std::vector<std::string> steps;

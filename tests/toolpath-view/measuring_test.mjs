@@ -53,6 +53,8 @@ test('sections go from tool change to tool change, and a filter hides whole ones
   assert.equal(hiddenSteps(path, noFilter), null);
   assert.deepEqual([...hiddenSteps(path, { ...noFilter, tools: new Set(['T1']) })], [1, 1, 0, 0, 1]);
   assert.deepEqual([...hiddenSteps(path, { ...noFilter, sections: new Set([1, 2]) })], [0, 0, 1, 1, 1]);
+  assert.deepEqual([...hiddenSteps(path, { ...noFilter, lines: [[1, 1], [4, 9]] })], [0, 1, 0, 0, 1]);
+  assert.deepEqual([...hiddenSteps(path, { ...noFilter, tools: new Set(['T2']), lines: [[0, 0]] })], [1, 0, 1, 1, 0]);
 });
 
 test('a mesh is read as it is written, without what is left of a triangle', async () => {

@@ -327,6 +327,52 @@ test('the toolpath follows what is typed', async () => {
   await eventually(furthest, 'the toolpath does not come back', (now) => Math.abs(now - reached) < 1e-6);
 });
 
+test('the tree of operations has times and findings, leads to lines, and hides parts of the path', async () => {
+  const frame = await editor.toolpath();
+  await editor.command('Explorer: Focus on Operations View');
+  const tree = page.locator('.pane', { has: page.locator('.pane-header[aria-label*="Operations"]') });
+  const rows = () => tree.locator('.monaco-list-row').allInnerTexts();
+  const shown = await eventually(rows, 'the tree is empty', (texts) => texts.length > 1);
+  const [rough, finish] = ['T101001', 'T102003'].map((tool) => tree.locator('.monaco-list-row', { hasText: tool }));
+  assert.match(shown.join('; '), /T101001.*\d:\d\d\.\d · \d+(\.\d)? m+ · Z-\d+/s);
+  await editor.keepPicture('operations');
+  await finish.click();
+  const change = await eventually(() => editor.currentLine(), 'its line is not shown', (line) => line > 0 && line !== 25);
+  assert.match(await editor.lineText(change), /M06 T102003/);
+  const hidden = (line) =>
+    frame.evaluate((at) => Boolean(globalThis.isocnc.view.hidden?.[globalThis.isocnc.path.stepsOf(at).start]), line);
+  await finish.locator('.custom-view-tree-node-item-checkbox').click();
+  await eventually(() => hidden(change + 4), 'the operation is not hidden');
+  assert.equal(await hidden(14), false);
+  await finish.hover();
+  await finish.locator('.action-label[aria-label*="Show Only This"]').click();
+  await eventually(() => hidden(14), 'the other operation is not hidden');
+  assert.equal(await hidden(change + 4), false);
+  await tree.locator('.pane-header').hover();
+  await page.locator('.action-label[aria-label*="Show All Operations"]').first().click();
+  await eventually(async () => !(await hidden(14)), 'the other operation stays hidden');
+  await rough.click();
+  await eventually(async () => /M06 T101001/.test(await editor.lineText(await editor.currentLine())), 'the first operation is not shown');
+});
+
+test('a program is mirrored by a command, and back', async () => {
+  await editor.focus();
+  await editor.goTo(14);
+  const before = await editor.lineText(14);
+  const mirror = async () => {
+    await editor.command('ISOCNC: Mirror, Rotate, Shift or Scale Feeds...');
+    await page.locator('.quick-input-list .monaco-list-row', { hasText: 'Mirror X' }).click();
+    await page.locator('.quick-input-box input[placeholder="400"]').waitFor();
+    await page.keyboard.type('300');
+    await editor.press('Enter');
+  };
+  await mirror();
+  await eventually(() => editor.lineText(14), 'the program is not mirrored', (text) => text && text !== before);
+  await mirror();
+  await eventually(() => editor.lineText(14), 'the program is not mirrored back', (text) => text === before);
+  await editor.command('File: Revert File');
+});
+
 test('the run plays, and keys move through it', async () => {
   const frame = await editor.toolpath();
   await frame.locator('#stage').focus();

@@ -14,13 +14,18 @@ export class Hiding {
 
   /** Whether anything is hidden. */
   get isActive(): boolean {
-    const { tools, sections, minZ, maxZ } = this.filter;
-    return tools.size > 0 || sections.size > 0 || minZ > -Infinity || maxZ < Infinity;
+    const { tools, sections, lines, minZ, maxZ } = this.filter;
+    return tools.size > 0 || sections.size > 0 || lines.length > 0 || minZ > -Infinity || maxZ < Infinity;
   }
 
   /** Hides nothing that is chosen by its place in the program, which may be another one now. */
-  forgetSections(): void {
-    this.filter = { ...this.filter, sections: new Set() };
+  forgetPlaces(): void {
+    this.filter = { ...this.filter, sections: new Set(), lines: [] };
+  }
+
+  /** Hides what is done on these lines, and no other lines. */
+  hideLines(lines: Filter['lines']): void {
+    this.set({ lines });
   }
 
   get chosen(): Filter {

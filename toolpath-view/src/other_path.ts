@@ -39,7 +39,7 @@ export class OtherPath {
   paint(parts: ShownParts): void {
     this.parts = parts;
     // Sections are those of the path beside it.
-    this.hidden = hiddenSteps(this.path, { ...parts.filter, sections: new Set() });
+    this.hidden = hiddenSteps(this.path, { ...parts.filter, sections: new Set(), lines: [] });
     this.lines.paint(stepColors(this.path, parts.mode, parts.theme, this.markOf), (step) => this.shows(step));
     this.lines.keepHeights(parts.filter.minZ, parts.filter.maxZ);
     const [steps, isMarked] = [this.litSteps, this.isMarked];

@@ -7,6 +7,7 @@ import { ContactList } from './contact_list';
 import { byId, element } from './elements';
 import { clock, coordinate, feed, lengthText } from './format';
 import { hasTravel } from './furniture';
+import type { Filter } from './filter';
 import { Hiding } from './hiding';
 import { icon } from './icons';
 import { legend } from './legend';
@@ -115,7 +116,7 @@ export class Panel {
     this.totals = totalsOf(path);
     this.selected = null;
     this.contact = -1;
-    this.hiding.forgetSections();
+    this.hiding.forgetPlaces();
     this.view?.take(path);
     this.showStock();
     this.view?.keep(this.hiding.chosen);
@@ -125,6 +126,11 @@ export class Panel {
     const { start, end } = path.stepsOf(line);
     if (end > start && !this.player.isPlaying) this.player.seekStep(end - 1);
     this.write();
+  }
+
+  /** Hides what is done on these lines, from 0, until another path is shown. */
+  hideLines(lines: Filter['lines']): void {
+    this.hiding.hideLines(lines);
   }
 
   /** Shows the path of another program beside this one, which is the new one of the comparison; null ends that. */

@@ -3,6 +3,7 @@ import type { ComparisonRecording } from '../../../toolpath-view/src/comparison'
 import type { MachinePosition } from '../../../toolpath-view/src/machine_position';
 import type { Facts, Recording, Vector } from '../../../toolpath-view/src/toolpath';
 import type { Patches } from '../../../toolpath-view/src/streams';
+import type { Lines } from '../operations/operations';
 
 /** What the page takes to show the old program of a diff beside the new one (toolpath-view/README.md). */
 export type Overlay = ComparisonRecording & { old: Recording };
@@ -23,6 +24,8 @@ export type ToPage =
   | { type: 'problem'; message: string }
   /** Lines that are selected in the editor, from 0; `last` belongs to them. */
   | { type: 'lines'; first: number; last: number }
+  /** Lines whose path is not shown; instead of those before. */
+  | { type: 'hide'; lines: Lines[] }
   | ({ type: 'pose' } & MachinePosition)
   /** Length, width, height. */
   | { type: 'stock'; size: Vector | null };

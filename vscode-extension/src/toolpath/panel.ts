@@ -4,6 +4,7 @@ import type { Vector } from '../../../toolpath-view/src/toolpath';
 import { adviseOpen, currentProgram } from '../current_program';
 import { language, settings } from '../environment';
 import { nameOf } from '../files';
+import type { HiddenLines } from './hidden_lines';
 import type { ToPage, ToPanel } from './messages';
 import { readPosition } from '../../../toolpath-view/src/machine_position';
 import type { KnownToolpath, ToolpathSource } from './source';
@@ -11,11 +12,11 @@ import { whole } from '../../../toolpath-view/src/streams';
 
 const viewType = 'isocnc.toolpath';
 
-export function activate(context: vscode.ExtensionContext, source: ToolpathSource): void {
+export function activate(context: vscode.ExtensionContext, source: ToolpathSource, hidden: HiddenLines): void {
   let panel: ToolpathPanel | null = null;
   const adopt = (webview: vscode.WebviewPanel, document: vscode.TextDocument | null) => {
     panel?.dispose();
-    const made = (panel = new ToolpathPanel(webview, context.extensionUri, source));
+    const made = (panel = new ToolpathPanel(webview, context.extensionUri, source, hidden));
     webview.onDidDispose(() => {
       if (panel === made) panel = null;
     });
@@ -90,6 +91,7 @@ class ToolpathPanel implements vscode.Disposable {
     private readonly panel: vscode.WebviewPanel,
     extension: vscode.Uri,
     private readonly source: ToolpathSource,
+    private readonly hidden: HiddenLines,
   ) {
     const icon = (theme: string) => vscode.Uri.joinPath(extension, 'media', `toolpath-${theme}.svg`);
     panel.iconPath = { light: icon('light'), dark: icon('dark') };
@@ -99,6 +101,9 @@ class ToolpathPanel implements vscode.Disposable {
       source.onUpdate((path) => this.take(path)),
       source.onFailure(({ uri, message }) => {
         if (uri.toString() === this.document?.uri.toString()) this.post({ type: 'problem', message });
+      }),
+      hidden.onChange((program) => {
+        if (program === this.document?.uri.toString()) this.hide();
       }),
       this.passing,
     ];
@@ -225,12 +230,18 @@ class ToolpathPanel implements vscode.Disposable {
       patches: isNext ? path.patches : whole(path),
       language: language(),
     });
+    // Another path forgets which of its parts are hidden.
+    if (this.hidden.of(path.uri).length > 0) this.hide();
     void this.compare();
     if (!isFirst) return;
     this.post({ type: 'stock', size: settings(this.document).get<Vector | null>('toolpath.stock', null) });
     const editor = this.editor;
     if (editor && settings(this.document).get('toolpath.followCursor', true))
       this.post({ type: 'lines', first: editor.selection.active.line, last: editor.selection.active.line });
+  }
+
+  private hide(): void {
+    if (this.document && this.shown !== null) this.post({ type: 'hide', lines: this.hidden.of(this.document.uri) });
   }
 
   private post(message: ToPage): void {

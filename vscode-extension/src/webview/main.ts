@@ -39,6 +39,8 @@ class Page {
       case 'lines':
         if (!this.panel?.player.isPlaying) this.panel?.choose(message.first, message.last);
         return;
+      case 'hide':
+        return this.panel?.hideLines(message.lines);
       case 'pose':
         return this.panel?.pose(message);
       case 'stock':
