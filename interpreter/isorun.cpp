@@ -28,6 +28,7 @@
 #include "interpreter/run_report.h"
 #include "interpreter/running/error_message.h"
 #include "interpreter/running/runner.h"
+#include "interpreter/sheet_report.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/same_file.h"
@@ -55,6 +56,7 @@ struct RunCommandOptions {
   std::string samples;
   std::string sample_seconds = "0.01";
   std::string plot;
+  std::string sheet;
   std::string stock_out;
   command_line::MaterialValues material;
   bool json = false;
@@ -123,6 +125,8 @@ constexpr Text kWrongSeconds{"--dt takes a plain number of seconds, from 0.0001,
                              "--dt vuole un numero semplice di secondi, da 0.0001, come 0.01, non {}"};
 constexpr Text kWrongPlot{"--plot writes a file whose name ends in .svg or .html, unlike {}",
                           "--plot scrive un file il cui nome finisce in .svg o .html, non come {}"};
+constexpr Text kWrongSheet{"--sheet writes a file whose name ends in .html or .pdf, unlike {}",
+                           "--sheet scrive un file il cui nome finisce in .html o .pdf, non come {}"};
 constexpr Text kNoPage{
     "this isorun draws no {}: it was built without npm, which --plot FILE.html takes; --plot FILE.svg works",
     "questo isorun non disegna {}: è stato compilato senza npm, che serve per --plot FILE.html; --plot FILE.svg "
@@ -182,6 +186,7 @@ std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   const auto format = plot::plot_format(options.plot);
   if (!options.plot.empty() && !format) return refuse(kWrongPlot, options.plot, options);
   if (format == plot::PlotFormat::Html && plot::kPageTemplate.empty()) return refuse(kNoPage, options.plot, options);
+  if (!options.sheet.empty() && !is_sheet_name(options.sheet)) return refuse(kWrongSheet, options.sheet, options);
   if (!options.stock_out.empty() && !options.stock_out.ends_with(".stl") && !options.stock_out.ends_with(".stock"))
     return refuse(kWrongStock, options.stock_out, options);
   if (const auto mistake = set_material_values(options.material, options.reader_language(), outputs.material)) {
@@ -357,6 +362,7 @@ std::vector<NamedFile> files_written(const RunCommandOptions& options) {
   add(options.trace, "--trace");
   add(options.samples, "--samples");
   add(options.plot, "--plot");
+  add(options.sheet, "--sheet");
   add(options.stock_out, "--stock-out");
   add(options.output, "--output");
   const bool leaves_standard_output_alone = options.makes_program() && files.size() == 1;
@@ -451,6 +457,25 @@ bool write_made(std::string_view program, const RunCommandOptions& options) {
   output->write(program);
   const std::optional<std::string> problem =
       system::commit(*output, is_file ? options.output : "<stdout>", options.reader_language());
+  if (problem) complain(*problem);
+  return !problem;
+}
+
+/// Writes the setup sheet; false after an error message.
+bool write_sheet(const system::SourceFile& source, const RunCommandOptions& options,
+                 const running::RunOptions& run_options, const RunSettings& settings) {
+  const std::string marked =
+      source.has_byte_order_mark() ? fmt::format("{}{}", system::kByteOrderMark, source.text()) : "";
+  const sheet::SheetSubject subject{.text = source.text(),
+                                    .name = name_in_comments(options),
+                                    .bytes = marked.empty() ? source.text() : std::string_view(marked),
+                                    .run = run_options,
+                                    .machine = settings.machine,
+                                    .scene = settings.scene.get(),
+                                    .language = options.reader_language()};
+  system::OutputFile output{std::filesystem::path(options.sheet)};
+  output.write(sheet_file(options.sheet, subject, settings.setup, settings.selection));
+  const std::optional<std::string> problem = system::commit(output, options.sheet, options.reader_language());
   if (problem) complain(*problem);
   return !problem;
 }
@@ -684,7 +709,9 @@ ExitStatus run_file(RunCommandOptions options) {
   outputs->subject.scene = found->scene;
   if (!can_cut(options, *outputs)) return ExitStatus::Failure;
   if (found->scene) outputs->subject.origin = verification::first_workpiece_origin(source.text(), *run_options);
-  return run_program(source.text(), options, *run_options, *outputs, *found);
+  const ExitStatus status = run_program(source.text(), options, *run_options, *outputs, *found);
+  if (options.sheet.empty() || status == ExitStatus::Failure) return status;
+  return write_sheet(source, options, *run_options, *found) ? status : ExitStatus::Failure;
 }
 
 /// An option that is given and says how a program is written; empty for none.
@@ -758,6 +785,9 @@ ExitStatus run_main(int argc, char** argv) {
   const command_line::ProgramOption plot = program.add_option(
       "--plot", options.plot, command_line::kFileValue,
       {"A picture of the path: FILE.svg or, in 3-D, .html", "Un disegno del percorso: FILE.svg o, in 3D, .html"});
+  const command_line::ProgramOption sheet =
+      program.add_option("--sheet", options.sheet, command_line::kFileValue,
+                         {"A setup sheet to print: FILE.html or .pdf", "Una scheda da stampare: FILE.html o .pdf"});
   const command_line::ProgramOption json =
       program.add_flag("--json", options.json, {"The summary as JSON", "Il riassunto in JSON"}).without_exclusions();
   const command_line::ProgramOption verify = program
@@ -802,7 +832,7 @@ ExitStatus run_main(int argc, char** argv) {
   for (const command_line::ProgramOption* maker = std::begin(makers); maker != std::end(makers); ++maker) {
     for (const command_line::ProgramOption* other = std::begin(makers); other != maker; ++other)
       maker->excludes(*other);
-    for (const command_line::ProgramOption& other : {until, trace, samples, plot, stock_out, verify, json})
+    for (const command_line::ProgramOption& other : {until, trace, samples, plot, sheet, stock_out, verify, json})
       maker->excludes(other);
   }
   program.add_option(

@@ -42,10 +42,10 @@ class VgplPairs {
     old_.close(cells);
     for (const int each : old_.unassigned_registers(of_old)) registers_.insert(each);
     for (const int each : new_.unassigned_registers(of_new)) registers_.insert(each);
-    return in_words(cells);
+    return old_.in_words(cells);
   }
   std::optional<double> next() const { return old_.next(); }
-  std::string open_values() const { return next() ? in_words(old_.open_cells()) : ""; }
+  std::string open_values() const { return next() ? old_.in_words(old_.open_cells()) : ""; }
   const std::set<int>& registers() const { return registers_; }
 
  private:
@@ -57,36 +57,6 @@ class VgplPairs {
     const std::vector<double> more = VgplValues(pair.new_revision.text).constants();
     constants.insert(constants.end(), more.begin(), more.end());
     return constants;
-  }
-
-  /// As conditions of an IF: cells in a row are one range.
-  std::string in_words(const VgplValues::CellSet& cells) const {
-    const std::vector<double>& constants = old_.constants();
-    if (std::count(cells.begin(), cells.end(), false) == 0) return "";
-    const auto first_excluded = std::find(cells.begin(), cells.end(), false);
-    const auto excluded = static_cast<std::size_t>(first_excluded - cells.begin());
-    if (excluded % 2 == 1 && std::count(cells.begin(), cells.end(), false) == 1)
-      return fmt::format("VGPL <> {}", constants[excluded / 2]);
-    std::vector<std::string> ranges;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (!cells[i]) continue;
-      std::size_t last = i;
-      while (last + 1 < cells.size() && cells[last + 1]) ++last;
-      ranges.push_back(range(i, last));
-      i = last;
-    }
-    return fmt::format("{}", fmt::join(ranges, ", "));
-  }
-  std::string range(std::size_t first, std::size_t last) const {
-    const std::vector<double>& constants = old_.constants();
-    if (first == last && first % 2 == 1) return fmt::format("VGPL = {}", constants[first / 2]);
-    const bool is_open_below = first == 0;
-    const bool is_open_above = last == 2 * constants.size();
-    const auto below = [&] { return constants[(first - 1) / 2]; };
-    const auto above = [&] { return constants[last / 2]; };
-    if (is_open_below) return fmt::format("VGPL {} {}", last % 2 == 1 ? "<=" : "<", above());
-    if (is_open_above) return fmt::format("VGPL {} {}", first % 2 == 1 ? ">=" : ">", below());
-    return fmt::format("{} {} VGPL {} {}", below(), first % 2 == 1 ? "<=" : "<", last % 2 == 1 ? "<=" : "<", above());
   }
 
   VgplValues old_;  ///< Its cells are open until both have been run.

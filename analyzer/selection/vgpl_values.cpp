@@ -204,4 +204,31 @@ std::vector<simulation::RunFinding> VgplValues::findings() const {
   return findings;
 }
 
+std::string VgplValues::in_words(const CellSet& cells) const {
+  const auto excluded_count = std::count(cells.begin(), cells.end(), false);
+  if (excluded_count == 0) return "";
+  const auto excluded = static_cast<std::size_t>(std::find(cells.begin(), cells.end(), false) - cells.begin());
+  if (excluded % 2 == 1 && excluded_count == 1) return fmt::format("VGPL <> {}", constants_[excluded / 2]);
+  std::vector<std::string> ranges;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!cells[i]) continue;
+    std::size_t last = i;
+    while (last + 1 < cells.size() && cells[last + 1]) ++last;
+    ranges.push_back(range_in_words(i, last));
+    i = last;
+  }
+  return fmt::format("{}", fmt::join(ranges, ", "));
+}
+
+std::string VgplValues::range_in_words(std::size_t first, std::size_t last) const {
+  if (first == last && first % 2 == 1) return fmt::format("VGPL = {}", constants_[first / 2]);
+  const bool is_open_below = first == 0;
+  const bool is_open_above = last == 2 * constants_.size();
+  const auto below = [&] { return constants_[(first - 1) / 2]; };
+  const auto above = [&] { return constants_[last / 2]; };
+  if (is_open_below) return fmt::format("VGPL {} {}", last % 2 == 1 ? "<=" : "<", above());
+  if (is_open_above) return fmt::format("VGPL {} {}", first % 2 == 1 ? ">=" : ">", below());
+  return fmt::format("{} {} VGPL {} {}", below(), first % 2 == 1 ? "<=" : "<", last % 2 == 1 ? "<=" : "<", above());
+}
+
 }  // namespace isocnc::selection

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,8 @@ class VgplValues {
   /// The cells that are open.
   CellSet open_cells() const;
   void close(const CellSet& cells);
+  /// Cells as conditions of an IF, `VGPL < 1, VGPL > 2`: cells in a row are one range. Empty for all.
+  std::string in_words(const CellSet& cells) const;
 
   /// The registers that IFs of a run compare though it has not assigned them.
   std::vector<int> unassigned_registers(const simulation::TakenPath& run) const;
@@ -70,6 +73,7 @@ class VgplValues {
   };
 
   void cut_into_cells();
+  std::string range_in_words(std::size_t first, std::size_t last) const;
   std::size_t cell_of(double constant) const;
   MetJumps met_by(const simulation::TakenPath& run) const;
   CellSet cells_along(const std::vector<MetJump>& met) const;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMaxOperations = 2000;
 
 /// From a tool change to the next one or to the end; the action that ends the run is in none.
-struct Operation {
+struct ComparedOperation {
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
   std::size_t begin = 0;
@@ -27,8 +27,8 @@ struct Operation {
   bool is_exact = false;        ///< The partner does the same, but for its way there.
 };
 
-std::vector<Operation> operations_of(const RecordedRun& run) {
-  std::vector<Operation> operations;
+std::vector<ComparedOperation> operations_of(const RecordedRun& run) {
+  std::vector<ComparedOperation> operations;
   const std::size_t last = run.actions.size() - 1;
   for (std::size_t i = 0; i < last; ++i)
     if (run.actions[i].kind == ActionKind::Tool) operations.push_back({i, last});
@@ -36,11 +36,11 @@ std::vector<Operation> operations_of(const RecordedRun& run) {
   return operations;
 }
 
-const execution::ToolCode& tool_at(const RecordedRun& run, const Operation& operation) {
+const execution::ToolCode& tool_at(const RecordedRun& run, const ComparedOperation& operation) {
   return run.tools[run.actions[operation.begin].tool].code;
 }
 
-std::string tool_before(const RecordedRun& run, const std::vector<Operation>& operations, std::size_t index) {
+std::string tool_before(const RecordedRun& run, const std::vector<ComparedOperation>& operations, std::size_t index) {
   return index == 0 ? "" : running::tool_name(tool_at(run, operations[index - 1]));
 }
 
@@ -63,7 +63,7 @@ class OperationSorter {
     for (std::size_t i = 0; i < of_a_.size(); ++i) {
       const std::size_t partner = of_a_[i].partner;
       place_of_a[i] = ordered.a.actions.size();
-      if (partner == Operation::kNone) continue;
+      if (partner == ComparedOperation::kNone) continue;
       place_of_b[partner] = ordered.b.actions.size();
       append(runs_.a, of_a_[i], ordered.a);
       append(runs_.b, of_b_[partner], ordered.b);
@@ -78,14 +78,14 @@ class OperationSorter {
       if (!stays[i]) ordered.changes.push_back({moved(i), place_of_a[i]});
     }
     for (std::size_t i = 0; i < of_a_.size(); ++i)
-      if (of_a_[i].partner == Operation::kNone)
+      if (of_a_[i].partner == ComparedOperation::kNone)
         ordered.changes.push_back({only(ChangeKind::Removed, i), place_of_a[i]});
     for (std::size_t k = 0; k < of_b_.size(); ++k) {
-      if (of_b_[k].partner != Operation::kNone) continue;
+      if (of_b_[k].partner != ComparedOperation::kNone) continue;
       place_of_b[k] = ordered.b.actions.size();
-      const std::size_t after = k + 1 < of_b_.size() ? of_b_[k + 1].partner : Operation::kNone;
-      ordered.changes.push_back(
-          {only(ChangeKind::Added, k), after == Operation::kNone ? ordered.a.actions.size() : place_of_a[after]});
+      const std::size_t after = k + 1 < of_b_.size() ? of_b_[k + 1].partner : ComparedOperation::kNone;
+      ordered.changes.push_back({only(ChangeKind::Added, k),
+                                 after == ComparedOperation::kNone ? ordered.a.actions.size() : place_of_a[after]});
     }
     if (ordered.changes.empty()) return std::nullopt;
     finish(runs_.a, of_a_, place_of_a, ordered.a);
@@ -96,13 +96,13 @@ class OperationSorter {
  private:
   using Difference = std::vector<MachineAction>::difference_type;
 
-  static Difference first(const std::vector<Operation>& operations) {
+  static Difference first(const std::vector<ComparedOperation>& operations) {
     return static_cast<Difference>(operations.empty() ? 0 : operations[0].begin);
   }
 
   bool has_same_tools() const {
     return std::equal(of_a_.begin(), of_a_.end(), of_b_.begin(), of_b_.end(),
-                      [&](const Operation& left, const Operation& right) {
+                      [&](const ComparedOperation& left, const ComparedOperation& right) {
                         return tool_at(runs_.a, left) == tool_at(runs_.b, right);
                       });
   }
@@ -115,7 +115,7 @@ class OperationSorter {
   }
 
   /// Whether both do the same, but for where the axes stand that the way there leaves where they are.
-  bool is_same(const Operation& left, const Operation& right) const {
+  bool is_same(const ComparedOperation& left, const ComparedOperation& right) const {
     bool is_on_the_way = true;
     bool has_other_way = false;
     for (std::size_t i = left.begin, k = right.begin; i < left.end; ++i, ++k) {
@@ -150,7 +150,7 @@ class OperationSorter {
       known[{tool_at(runs_.b, of_b_[k]), of_b_[k].end - of_b_[k].begin}].push_back(k);
     for (std::size_t i = 0; i < of_a_.size(); ++i) {
       for (const std::size_t k : known[{tool_at(runs_.a, of_a_[i]), of_a_[i].end - of_a_[i].begin}]) {
-        if (of_b_[k].partner != Operation::kNone || !is_same(of_a_[i], of_b_[k])) continue;
+        if (of_b_[k].partner != ComparedOperation::kNone || !is_same(of_a_[i], of_b_[k])) continue;
         pair(i, k);
         of_a_[i].is_exact = of_b_[k].is_exact = true;
         break;
@@ -163,20 +163,20 @@ class OperationSorter {
     of_b_[k].partner = i;
   }
 
-  static std::vector<std::size_t> alone(const std::vector<Operation>& operations) {
+  static std::vector<std::size_t> alone(const std::vector<ComparedOperation>& operations) {
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < operations.size(); ++i)
-      if (operations[i].partner == Operation::kNone) indices.push_back(i);
+      if (operations[i].partner == ComparedOperation::kNone) indices.push_back(i);
     return indices;
   }
 
   /// Whether an operation that only one run has is missing in the other one, and not only its tool change: then the
   /// operation before it would have its actions there.
-  static bool is_missing(const std::vector<Operation>& operations, const std::vector<Operation>& others,
+  static bool is_missing(const std::vector<ComparedOperation>& operations, const std::vector<ComparedOperation>& others,
                          std::size_t index) {
-    const auto size = [](const Operation& operation) { return operation.end - operation.begin; };
-    if (index == 0 || operations[index - 1].partner == Operation::kNone) return true;
-    const Operation& before = operations[index - 1];
+    const auto size = [](const ComparedOperation& operation) { return operation.end - operation.begin; };
+    if (index == 0 || operations[index - 1].partner == ComparedOperation::kNone) return true;
+    const ComparedOperation& before = operations[index - 1];
     return size(others[before.partner]) <= size(before) + size(operations[index]) / 2;
   }
 
@@ -220,20 +220,21 @@ class OperationSorter {
   /// The operations of a that keep their order in b: as many actions as possible.
   std::vector<bool> staying() const {
     std::vector<std::size_t> best(of_a_.size());  // Actions of the heaviest row that ends with each.
-    std::vector<std::size_t> before(of_a_.size(), Operation::kNone);
-    std::size_t last = Operation::kNone;
+    std::vector<std::size_t> before(of_a_.size(), ComparedOperation::kNone);
+    std::size_t last = ComparedOperation::kNone;
     for (std::size_t i = 0; i < of_a_.size(); ++i) {
-      if (of_a_[i].partner == Operation::kNone) continue;
+      if (of_a_[i].partner == ComparedOperation::kNone) continue;
       for (std::size_t j = 0; j < i; ++j) {
-        if (of_a_[j].partner == Operation::kNone || of_a_[j].partner > of_a_[i].partner || best[j] <= best[i]) continue;
+        if (of_a_[j].partner == ComparedOperation::kNone || of_a_[j].partner > of_a_[i].partner || best[j] <= best[i])
+          continue;
         best[i] = best[j];
         before[i] = j;
       }
       best[i] += of_a_[i].end - of_a_[i].begin;
-      if (last == Operation::kNone || best[i] > best[last]) last = i;
+      if (last == ComparedOperation::kNone || best[i] > best[last]) last = i;
     }
     std::vector<bool> stays(of_a_.size());
-    for (; last != Operation::kNone; last = before[last]) stays[last] = true;
+    for (; last != ComparedOperation::kNone; last = before[last]) stays[last] = true;
     return stays;
   }
 
@@ -243,14 +244,14 @@ class OperationSorter {
     return change;
   }
 
-  void describe_old(const RecordedRun& run, const Operation& operation, BehaviorChange& change) const {
+  void describe_old(const RecordedRun& run, const ComparedOperation& operation, BehaviorChange& change) const {
     change.old_lines = lines_of(run, operation.begin, operation.end);
     change.old_start = run.actions[operation.begin].line;
     change.old_motions = motion_count(run, operation.begin, operation.end);
     change.old_tool = tool_at(run, operation);
     change.seconds -= run.actions[operation.end].start - run.actions[operation.begin].start;
   }
-  void describe_new(const RecordedRun& run, const Operation& operation, BehaviorChange& change) const {
+  void describe_new(const RecordedRun& run, const ComparedOperation& operation, BehaviorChange& change) const {
     change.new_lines = lines_of(run, operation.begin, operation.end);
     change.new_start = run.actions[operation.begin].line;
     change.new_motions = motion_count(run, operation.begin, operation.end);
@@ -281,10 +282,10 @@ class OperationSorter {
       change.old_start = runs_.a.actions.back().line;
     }
     // The other run comes to it where it does what follows.
-    const std::vector<Operation>& own = is_of_a ? of_a_ : of_b_;
-    const std::vector<Operation>& other = is_of_a ? of_b_ : of_a_;
+    const std::vector<ComparedOperation>& own = is_of_a ? of_a_ : of_b_;
+    const std::vector<ComparedOperation>& other = is_of_a ? of_b_ : of_a_;
     std::size_t next = index + 1;
-    while (next < own.size() && own[next].partner == Operation::kNone) ++next;
+    while (next < own.size() && own[next].partner == ComparedOperation::kNone) ++next;
     if (next == own.size()) return change;
     const std::size_t action = other[own[next].partner].begin;
     (is_of_a ? change.new_start : change.old_start) = (is_of_a ? runs_.b : runs_.a).actions[action].line;
@@ -292,7 +293,7 @@ class OperationSorter {
   }
 
   /// Adds an operation, which begins where the one before it ends now.
-  static void append(const RecordedRun& run, const Operation& operation, RecordedRun& ordered) {
+  static void append(const RecordedRun& run, const ComparedOperation& operation, RecordedRun& ordered) {
     const auto begin = run.actions.begin() + static_cast<Difference>(operation.begin);
     const auto end = run.actions.begin() + static_cast<Difference>(operation.end);
     const auto is_motion = [](const MachineAction& action) { return action.is_motion(); };
@@ -307,7 +308,7 @@ class OperationSorter {
   }
 
   /// Adds the end, and brings times and IFs into the new order.
-  static void finish(const RecordedRun& run, const std::vector<Operation>& operations,
+  static void finish(const RecordedRun& run, const std::vector<ComparedOperation>& operations,
                      const std::vector<std::size_t>& places, RecordedRun& ordered) {
     ordered.actions.push_back(run.actions.back());
     const auto duration = [&](std::size_t i) {
@@ -321,8 +322,8 @@ class OperationSorter {
     for (std::size_t operation = 0; operation < operations.size(); ++operation) {
       const auto [begin, end, partner, is_exact] = operations[operation];
       for (std::size_t i = begin; i < end; ++i) {
-        index[i] = places[operation] + (partner == Operation::kNone ? 0 : i - begin);
-        if (partner != Operation::kNone) durations[index[i]] = duration(i);
+        index[i] = places[operation] + (partner == ComparedOperation::kNone ? 0 : i - begin);
+        if (partner != ComparedOperation::kNone) durations[index[i]] = duration(i);
       }
     }
     double start = 0;
@@ -339,8 +340,8 @@ class OperationSorter {
 
   const RunPair& runs_;
   const ComparisonOptions& options_;
-  std::vector<Operation> of_a_;
-  std::vector<Operation> of_b_;
+  std::vector<ComparedOperation> of_a_;
+  std::vector<ComparedOperation> of_b_;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace isocnc::extensions {
 namespace {
 
 /// An operation as it stands in the program.
-struct Operation {
+struct ListedOperation {
   queries::Section section;
   std::optional<double> removed;  ///< mm^3, by the last verification.
 };
@@ -34,7 +34,7 @@ Json extents_json(const queries::TimedSection& timed, const geometry::Vec3& orig
 }
 
 /// `sections`: of a run with VGPL 0; an operation that it does not come to has no time.
-Json operation_json(const Operation& operation, const queries::Sections& sections, const geometry::Vec3& origin) {
+Json operation_json(const ListedOperation& operation, const queries::Sections& sections, const geometry::Vec3& origin) {
   const queries::Section& section = operation.section;
   Json json = {{"line", section.head_line},     {"firstLine", section.first_line},
                {"lastLine", section.last_line}, {"tool", section.title},
@@ -49,7 +49,7 @@ Json operation_json(const Operation& operation, const queries::Sections& section
 }
 
 BackgroundRequest answer_operations(const Snapshot& snapshot, const protocol::DocumentParams&) {
-  std::vector<Operation> operations;
+  std::vector<ListedOperation> operations;
   for (queries::Section& section : queries::outline(snapshot)) {
     if (section.kind != queries::SectionKind::Tool) continue;
     const std::optional<double> removed = removed_in(snapshot, section);
@@ -61,7 +61,7 @@ BackgroundRequest answer_operations(const Snapshot& snapshot, const protocol::Do
     const auto sections = times->time(*program, stop);
     const geometry::Vec3 origin = program->workpiece_origin();
     Json all = Json::array();
-    for (const Operation& operation : operations) all.push_back(operation_json(operation, *sections, origin));
+    for (const ListedOperation& operation : operations) all.push_back(operation_json(operation, *sections, origin));
     return rpc::write({{"version", program->version()}, {"operations", std::move(all)}});
   };
 }

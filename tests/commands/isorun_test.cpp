@@ -87,6 +87,50 @@ TEST(IsorunPlot, IsAPageOrSaysWhyNot) {
   EXPECT_EQ(page.str().find("M06 T101001"), std::string::npos);
 }
 
+TEST(IsorunSheet, IsWrittenBesideTheSummary) {
+  const support::TemporaryFolder folder;
+  const std::string program = folder.write("part.iso", "\xEF\xBB\xBFM06 T101001\nG01 X5\nM02\n");
+  const std::string sheet = folder.path("sheet.HTML");
+  const CommandResult result = run_command({"isorun", "--sheet", sheet, program});
+  EXPECT_EQ(result.status, 1) << "the F is missing";
+  EXPECT_THAT(result.out, HasSubstr("result: "));
+  std::stringstream page;
+  page << std::ifstream(sheet).rdbuf();
+  EXPECT_THAT(page.str(), HasSubstr("<h1>Setup sheet</h1><strong>part.iso</strong>"));
+  EXPECT_THAT(page.str(), HasSubstr("ISO066"));
+  // Of the whole file, with its mark, as sha256sum has it.
+  EXPECT_THAT(page.str(), HasSubstr("67ea4c310a2e55426c6ebf6920efe60466ac4ecba0575edb7a27573e84da0050"));
+  const std::string pdf = folder.path("sheet.pdf");
+  EXPECT_EQ(
+      run_command({"isorun", "--json", "--lang", "it", "--sheet", pdf, "-"}, {.input = std::string(kCleanProgram)})
+          .status,
+      0);
+  std::stringstream file;
+  file << std::ifstream(pdf, std::ios::binary).rdbuf();
+  EXPECT_THAT(file.str(), StartsWith("%PDF-1.4\n"));
+  EXPECT_THAT(file.str(), HasSubstr("(Scheda di attrezzaggio)"));
+}
+
+TEST(IsorunSheet, RefusesMistakenCommands) {
+  const support::TemporaryFolder folder;
+  const std::string program = folder.write("part.iso", kCleanProgram);
+  const auto said = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), "isorun");
+    options.push_back(program);
+    const CommandResult result = run_command(options);
+    EXPECT_EQ(result.status, 2);
+    return result.err;
+  };
+  EXPECT_EQ(said({"--sheet", "sheet.txt"}),
+            "isorun: --sheet writes a file whose name ends in .html or .pdf, unlike sheet.txt\n");
+  EXPECT_EQ(said({"--lang", "it", "--sheet", ".pdf"}),
+            "isorun: --sheet scrive un file il cui nome finisce in .html o .pdf, non come .pdf\n");
+  EXPECT_THAT(said({"--sheet", folder.path("none/sheet.pdf")}), HasSubstr("sheet.pdf: cannot write: "));
+  EXPECT_THAT(said({"--sheet", folder.path("a.html"), "--plot", folder.path("a.html")}),
+              HasSubstr("--plot and --sheet would both be written there"));
+  EXPECT_THAT(said({"--sheet", folder.path("a.pdf"), "--lift", "5"}), HasSubstr("--sheet"));
+}
+
 TEST(IsorunOptions, RefuseWhatMakesNoSense) {
   const auto said = [](std::vector<std::string> options) {
     options.insert(options.begin(), "isorun");

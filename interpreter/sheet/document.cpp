@@ -1,0 +1,241 @@
+#include "interpreter/sheet/document.h"
+
+#include <fmt/format.h>
+
+#include "interpreter/dialect/format.h"
+#include "interpreter/sheet/path_view.h"
+#include "interpreter/simulation/summary.h"
+
+namespace isocnc::sheet {
+
+using dialect::Language;
+using dialect::Text;
+using geometry::Range;
+using verification::BodyRole;
+
+namespace {
+
+constexpr Text kTitle{"Setup sheet", "Scheda di attrezzaggio"};
+constexpr Text kPage{"page {} of {}", "pagina {} di {}"};
+constexpr Text kProgram{"Program", "Programma"};
+constexpr Text kProgramLines{"{}, {} lines", "{}, {} righe"};
+constexpr Text kMachine{"Machine", "Macchina"};
+constexpr Text kNoMachine{"none described: default times, no travel", "non descritta: tempi predefiniti, senza corse"};
+constexpr Text kCycleTime{"Cycle time", "Tempo ciclo"};
+constexpr Text kStopsThere{"The program does not come to its end: {}", "Il programma non arriva alla fine: {}"};
+constexpr Text kAbove{"From above: X to the right, Y up", "Dall'alto: X a destra, Y in su"};
+constexpr Text kFront{"From the front: X to the right, Z up", "Di fronte: X a destra, Z in su"};
+constexpr Text kTools{"Tools, in the order of their use", "Utensili, in ordine d'uso"};
+constexpr Text kTool{"Tool", "Utensile"};
+constexpr Text kLength{"Length", "Lunghezza"};
+constexpr Text kDiameter{"Diameter", "Diametro"};
+constexpr Text kSpeed{"S", "S"};
+constexpr Text kFeed{"F", "F"};
+constexpr Text kLeastZ{"Lowest Z", "Z minima"};
+constexpr Text kTime{"Time", "Tempo"};
+constexpr Text kUses{"Uses", "Usi"};
+constexpr Text kNoTools{"No tool is mounted.", "Non si monta nessun utensile."};
+constexpr Text kZeros{"Zero points, and the room that the tip takes from them",
+                      "Zeri, e ingombro della punta da ciascuno"};
+constexpr Text kZero{"Zero", "Zero"};
+constexpr Text kZeroOfLine{"{}  G92, line {}", "{}  G92, riga {}"};
+constexpr Text kFaceOfLine{"face, line {}", "faccia, riga {}"};
+constexpr Text kInMachine{"In the machine", "In macchina"};
+constexpr Text kNoZeros{"The program sets no zero point: it counts from the machine's.",
+                        "Il programma non imposta uno zero: conta da quello della macchina."};
+constexpr Text kSetup{"On the table, from the first zero", "Sulla tavola, dal primo zero"};
+constexpr Text kBody{"What", "Che cosa"};
+constexpr Text kSize{"Size", "Misure"};
+constexpr Text kBlank{"blank", "grezzo"};
+constexpr Text kFixture{"fixture", "attrezzatura"};
+constexpr Text kTarget{"finished part", "pezzo finito"};
+constexpr Text kSpoilboard{"spoilboard", "martire"};
+constexpr Text kExpects{"What the program expects", "Che cosa si aspetta il programma"};
+constexpr Text kFunctions{"M functions", "Funzioni M"};
+constexpr Text kRegisters{"Registers that an IF compares and the program does not set",
+                          "Registri che un IF confronta e il programma non imposta"};
+constexpr Text kFindings{"Findings", "Segnalazioni"};
+constexpr Text kNoFindings{"None.", "Nessuna."};
+constexpr Text kLine{"Line", "Riga"};
+constexpr Text kCode{"Code", "Codice"};
+constexpr Text kMessage{"Message", "Messaggio"};
+constexpr Text kNothing{"Nothing: no M functions of the user, no registers, no VGPL.",
+                        "Niente: nessuna funzione M dell'utente, nessun registro, nessuna VGPL."};
+constexpr Text kSetUpBy{"Set up by", "Attrezzato da"};
+constexpr Text kDate{"Date", "Data"};
+constexpr Text kCheckedBy{"Checked by", "Controllato da"};
+
+std::string worded(const Text& text, Language language) { return std::string(text.in(language)); }
+
+std::string number(double value, int decimals = 3) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (decimals > 0) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+std::string shown(const Range& range, int decimals = 3) {
+  const std::string least = number(range.minimum, decimals);
+  const std::string greatest = number(range.maximum, decimals);
+  return least == greatest ? least : least + " … " + greatest;
+}
+
+std::string shown(const std::optional<double>& value) { return value ? number(*value) : "–"; }
+
+std::string position(const geometry::Vec3& place) {
+  return fmt::format("X{} Y{} Z{}", number(place.x()), number(place.y()), number(place.z()));
+}
+
+Table tools_table(const Sheet& sheet, Language language) {
+  Table table{{{"", 1, false},
+               {worded(kTool, language), 4.4, false},
+               {worded(kLength, language), 1.5, true},
+               {worded(kDiameter, language), 1.4, true},
+               {worded(kSpeed, language), 2, true},
+               {worded(kFeed, language), 2, true},
+               {worded(kLeastZ, language), 1.5, true},
+               {worded(kUses, language), 0.9, true},
+               {worded(kTime, language), 2.1, true}},
+              {}};
+  for (std::size_t i = 0; i < sheet.tools.size(); ++i) {
+    const SheetTool& tool = sheet.tools[i];
+    const std::string name = running::tool_name(tool.code);
+    const bool turns = tool.speed.maximum > 0;
+    table.rows.push_back({{"", tool.picture.lines.empty() ? nullptr : &tool.picture},
+                          {tool.name.empty() ? name : name + " " + tool.name, nullptr, color_of_tool(i)},
+                          {shown(tool.length)},
+                          {tool.radius ? number(2 * *tool.radius) : "–"},
+                          {turns ? shown(tool.speed, 0) + (tool.turns_left ? " M04" : "") : "–"},
+                          {tool.least_z ? shown(tool.feed, 0) : "–"},
+                          {shown(tool.least_z)},
+                          {fmt::format("{}", tool.uses)},
+                          {simulation::shown_time(tool.seconds)}});
+  }
+  return table;
+}
+
+void append_room(std::vector<TableCell>& row, const std::array<Range, 3>& room) {
+  for (const Range& range : room) row.push_back({shown(range)});
+}
+
+Table zeros_table(const Sheet& sheet, Language language) {
+  Table table{{{worded(kZero, language), 2.6, false},
+               {worded(kInMachine, language), 3.4, false},
+               {"X", 2.2, true},
+               {"Y", 2.2, true},
+               {"Z", 2.2, true}},
+              {}};
+  std::size_t workpieces = 0;
+  for (const simulation::FrameExtents& frame : sheet.frames) {
+    std::vector<TableCell> row;
+    row.push_back({frame.is_face ? dialect::format(kFaceOfLine, language, frame.line + 1)
+                                 : dialect::format(kZeroOfLine, language, ++workpieces, frame.line + 1)});
+    row.push_back({position(frame.frame.origin)});
+    append_room(row, frame.extents);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+const Text& name_of(BodyRole role) {
+  switch (role) {
+    case BodyRole::Stock:
+      return kBlank;
+    case BodyRole::Target:
+      return kTarget;
+    case BodyRole::Spoilboard:
+      return kSpoilboard;
+    case BodyRole::Fixture:
+    case BodyRole::Machine:
+      break;
+  }
+  return kFixture;
+}
+
+Table setup_table(const Sheet& sheet, Language language) {
+  Table table{{{worded(kBody, language), 3.2, false},
+               {"X", 2.2, true},
+               {"Y", 2.2, true},
+               {"Z", 2.2, true},
+               {worded(kSize, language), 2.8, true}},
+              {}};
+  for (const BodyRole role : {BodyRole::Stock, BodyRole::Target, BodyRole::Spoilboard, BodyRole::Fixture})
+    for (const SheetBody& body : sheet.bodies) {
+      if (body.role != role) continue;
+      const std::string kind(name_of(role).in(language));
+      const bool is_named = role == BodyRole::Fixture && !body.name.empty();
+      std::vector<TableCell> row{{is_named ? body.name : kind}};
+      append_room(row, body.room);
+      const auto size = [&](std::size_t axis) { return number(body.room[axis].maximum - body.room[axis].minimum); };
+      row.push_back({fmt::format("{} × {} × {}", size(0), size(1), size(2))});
+      table.rows.push_back(std::move(row));
+    }
+  return table;
+}
+
+NamedValues expected(const Sheet& sheet, Language language) {
+  NamedValues facts;
+  std::string functions;
+  for (const SheetFunction& each : sheet.functions)
+    functions += fmt::format("{}M{}{}{} ({}×)", functions.empty() ? "" : ", ", each.number,
+                             each.name.empty() ? "" : " ", each.name, each.calls);
+  if (!functions.empty()) facts.rows.emplace_back(kFunctions.in(language), functions);
+  std::string registers;
+  for (const int each : sheet.registers) registers += fmt::format("{}V{}", registers.empty() ? "" : ", ", each);
+  if (!registers.empty()) facts.rows.emplace_back(kRegisters.in(language), registers);
+  for (const SheetPath& path : sheet.paths)
+    facts.rows.emplace_back(path.values,
+                            simulation::shown_time(path.seconds) + (path.stop.empty() ? "" : "; " + path.stop));
+  return facts;
+}
+
+Table findings_table(const Sheet& sheet, Language language) {
+  Table table{{{worded(kLine, language), 0.9, true},
+               {worded(kCode, language), 1.2, false},
+               {worded(kMessage, language), 9, false}},
+              {}};
+  for (const SheetFinding& each : sheet.findings)
+    table.rows.push_back({{fmt::format("{}", each.line + 1)},
+                          {each.code},
+                          {fmt::format("{}: {}", dialect::severity_name(each.severity, language), each.message)}});
+  return table;
+}
+
+}  // namespace
+
+SheetDocument document_of(const Sheet& sheet, Language language) {
+  SheetDocument document{worded(kTitle, language), sheet.program, worded(kPage, language), {}};
+  const auto add = [&](DocumentBlock block) { document.blocks.push_back(std::move(block)); };
+  const auto head = [&](const Text& text) { add(Heading{std::string(text.in(language))}); };
+  NamedValues facts;
+  const auto fact = [&](const Text& name, std::string value) {
+    facts.rows.emplace_back(name.in(language), std::move(value));
+  };
+  fact(kProgram, dialect::format(kProgramLines, language, sheet.program, sheet.lines));
+  facts.rows.emplace_back("SHA-256", sheet.hash);
+  fact(kMachine, sheet.machine.empty() ? worded(kNoMachine, language) : sheet.machine);
+  fact(kCycleTime, simulation::shown_time(sheet.seconds));
+  add(std::move(facts));
+  if (!sheet.stop.empty()) add(Paragraph{dialect::format(kStopsThere, language, sheet.stop), true});
+  if (!sheet.from_above.lines.empty())
+    add(Drawings{{{&sheet.from_above, worded(kAbove, language)}, {&sheet.from_front, worded(kFront, language)}}});
+  head(kTools);
+  sheet.tools.empty() ? add(Paragraph{worded(kNoTools, language)}) : add(tools_table(sheet, language));
+  head(kZeros);
+  sheet.frames.empty() ? add(Paragraph{worded(kNoZeros, language)}) : add(zeros_table(sheet, language));
+  if (!sheet.bodies.empty()) {
+    head(kSetup);
+    add(setup_table(sheet, language));
+  }
+  head(kExpects);
+  NamedValues expects = expected(sheet, language);
+  expects.rows.empty() ? add(Paragraph{worded(kNothing, language)}) : add(std::move(expects));
+  head(kFindings);
+  sheet.findings.empty() ? add(Paragraph{worded(kNoFindings, language)}) : add(findings_table(sheet, language));
+  add(Blanks{{worded(kSetUpBy, language), worded(kDate, language), worded(kCheckedBy, language)}});
+  return document;
+}
+
+}  // namespace isocnc::sheet

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "interpreter/geometry/range.h"
+#include "interpreter/plot/toolpath.h"
+#include "interpreter/sheet/drawing.h"
+
+namespace isocnc::sheet {
+
+/// The color of a tool by its place in the order of first use, from 0.
+std::uint32_t color_of_tool(std::size_t place);
+
+/// A view of a path along an axis of the machine, drawn to scale within a width and a height. What falls on the same
+/// tenths of a millimeter of paper is drawn once, so that the drawing is small however long the program is.
+class PathView {
+ public:
+  struct Axes {
+    int right = 0;  ///< X
+    int up = 1;
+  };
+
+  /// `room`: what is to be seen, machine frame, mm.
+  PathView(const Axes& axes, const std::array<geometry::Range, 3>& room, double max_width, double max_height);
+
+  /// A body as a rectangle.
+  void add_box(const std::array<geometry::Range, 3>& room, const PenStroke& stroke);
+  void add(const plot::ToolpathStep& step);
+  /// The axes of a frame, and its name.
+  void add_origin(const geometry::Vec3& origin, std::string name);
+
+  Drawing finish();
+
+ private:
+  using PaperCell = std::pair<std::int32_t, std::int32_t>;  ///< Tenths of a millimeter of paper.
+
+  PaperPoint on_paper(const geometry::Vec3& place) const;
+  static PaperCell cell_of(const PaperPoint& point);
+  static PaperPoint point_of(const PaperCell& cell);
+  /// The part of a line that lies in the drawing; none if it lies outside.
+  std::optional<std::pair<PaperPoint, PaperPoint>> clipped(const PaperPoint& from, const PaperPoint& to) const;
+  void add_segment(std::size_t style, const PaperCell& from, const PaperCell& to);
+
+  Axes axes_;
+  std::array<geometry::Range, 3> room_;
+  double scale_ = 1;  ///< mm of paper for a mm.
+  Drawing drawing_;
+  Drawing origins_;
+  std::map<std::size_t, std::vector<std::vector<PaperPoint>>> rows_;  ///< By style: rapids first, then by tool.
+  std::map<std::size_t, PaperCell> pens_;                             ///< Where the last row of each ends.
+  std::set<std::pair<std::size_t, PaperCell>> dots_;                  ///< By style.
+  std::unordered_set<std::uint64_t> drawn_;
+};
+
+}  // namespace isocnc::sheet
