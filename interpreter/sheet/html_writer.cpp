@@ -1,4 +1,5 @@
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 

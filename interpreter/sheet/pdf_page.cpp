@@ -1,6 +1,7 @@
 #include "interpreter/sheet/pdf_page.h"
 
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
