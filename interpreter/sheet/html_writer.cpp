@@ -41,26 +41,28 @@ figcaption { color: #555; font-size: 8pt; }
 std::string hex(std::uint32_t color) { return fmt::format("#{:06x}", color); }
 
 void append_drawing(std::string& html, const Drawing& drawing) {
-  const auto out = std::back_inserter(html);
-  fmt::format_to(out,
+  fmt::format_to(std::back_inserter(html),
                  "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.4g}mm\" height=\"{1:.4g}mm\" viewBox=\"0 0 "
                  "{0:.4g} {1:.4g}\" "
                  "fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\">",
                  drawing.width, drawing.height);
   for (const DrawnLine& line : drawing.lines) {
-    fmt::format_to(out, "<path stroke=\"{}\" stroke-width=\"{:g}\"", hex(line.stroke.color), line.stroke.width);
+    fmt::format_to(std::back_inserter(html), "<path stroke=\"{}\" stroke-width=\"{:g}\"", hex(line.stroke.color),
+                   line.stroke.width);
     if (line.stroke.is_dashed) html += " stroke-dasharray=\"0.8 0.5\"";
-    if (line.stroke.fill) fmt::format_to(out, " fill=\"{}\"", hex(*line.stroke.fill));
+    if (line.stroke.fill) fmt::format_to(std::back_inserter(html), " fill=\"{}\"", hex(*line.stroke.fill));
     html += " d=\"";
     bool is_first = true;
     for (const PaperPoint& point : line.points)
-      fmt::format_to(out, "{}{:.2f} {:.2f}", std::exchange(is_first, false) ? 'M' : 'L', point.x, point.y);
+      fmt::format_to(std::back_inserter(html), "{}{:.2f} {:.2f}", std::exchange(is_first, false) ? 'M' : 'L', point.x,
+                     point.y);
     if (line.points.size() == 1) html += "h0";
     html += "\"/>";
   }
   for (const DrawnText& text : drawing.texts)
-    fmt::format_to(out, "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"2.6\" fill=\"#333\">{}</text>", text.at.x,
-                   text.at.y, text::xml_escaped(text.text));
+    fmt::format_to(std::back_inserter(html),
+                   "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"2.6\" fill=\"#333\">{}</text>", text.at.x, text.at.y,
+                   text::xml_escaped(text.text));
   html += "</svg>";
 }
 

@@ -42,15 +42,14 @@ void PdfPage::write(const PaperPoint& at, std::string_view text, PdfFont font, d
 
 void PdfPage::draw(const DrawnLine& line, const PaperPoint& corner) {
   if (line.points.empty()) return;
-  const auto out = std::back_inserter(content_);
   const bool has_line = line.stroke.width > 0;
   if (has_line) content_ += color_of(line.stroke.color, "RG") + fmt::format("{:.3f} w\n", x_of(line.stroke.width));
   if (line.stroke.fill) content_ += color_of(*line.stroke.fill, "rg");
   content_ += line.stroke.is_dashed ? "[2.3 1.4] 0 d\n" : "[] 0 d\n";
   bool is_first = true;
   for (const PaperPoint& point : line.points)
-    fmt::format_to(out, "{:.2f} {:.2f} {}\n", x_of(corner.x + point.x), y_of(corner.y + point.y),
-                   std::exchange(is_first, false) ? 'm' : 'l');
+    fmt::format_to(std::back_inserter(content_), "{:.2f} {:.2f} {}\n", x_of(corner.x + point.x),
+                   y_of(corner.y + point.y), std::exchange(is_first, false) ? 'm' : 'l');
   // A line to where it begins is a point, by its round ends.
   if (line.points.size() == 1)
     content_ += fmt::format("{:.2f} {:.2f} l\n", x_of(corner.x + line.points[0].x), y_of(corner.y + line.points[0].y));

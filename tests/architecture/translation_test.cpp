@@ -29,6 +29,7 @@ void PrintTo(const Translation& pages, std::ostream* out) { *out << pages.italia
 
 const std::vector<Translation> kPages = {{"docs/README.md", "docs/it/README.md"},
                                          {"docs/operator.md", "docs/it/operatore.md"},
+                                         {"docs/cam.md", "docs/it/cam.md"},
                                          {"docs/isolint.md", "docs/it/isolint.md"},
                                          {"docs/isofmt.md", "docs/it/isofmt.md"},
                                          {"docs/isorun.md", "docs/it/isorun.md"},
