@@ -483,6 +483,9 @@ void add_transform_options(command_line::ProgramApp& program, transforming::Tran
   program.add_option("--rotate", options.rotate, {"DEGREES", "GRADI"},
                      {"Turned counterclockwise around --about", "Ruotati in senso antiorario intorno ad --about"});
   program.add_option("--shift", options.shift, {"X,Y[,Z]", "X,Y[,Z]"}, {"Moved by these mm", "Spostati di questi mm"});
+  program.add_option(
+      "--repeat", options.repeat, {"NX,NY,DX,DY", "NX,NY,DX,DY"},
+      {"NX columns, DX mm apart, and NY rows, DY mm apart", "NX colonne ogni DX mm, e NY righe ogni DY mm"});
   program.add_option("--about", options.about, {"MM", "MM"},
                      {"The place of --mirror on its axis, or X,Y of\n--rotate",
                       "La quota di --mirror sul suo asse, o X,Y di\n--rotate"});

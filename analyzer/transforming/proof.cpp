@@ -47,7 +47,9 @@ class BlockComparison {
       return compare(*move, std::get<MoveEvent>(new_event.what));
     if (const auto* frame = std::get_if<FrameEvent>(&old_event.what))
       return compare(*frame, std::get<FrameEvent>(new_event.what));
-    if (running::to_json(old_event) != running::to_json(new_event)) return TransformObstacle::EffectDiffers;
+    Event there = new_event;
+    there.line = old_event.line;
+    if (running::to_json(old_event) != running::to_json(there)) return TransformObstacle::EffectDiffers;
     return std::nullopt;
   }
 
@@ -163,11 +165,17 @@ std::optional<TransformationRefusal> find_difference(std::string_view program, s
   const running::Program new_program(transformed);
   running::Runner old_run(old_program, options);
   running::Runner new_run(new_program, options);
-  while (!old_run.has_ended()) {
+  return find_difference(old_run, new_run, 0, std::nullopt, map, language);
+}
+
+std::optional<TransformationRefusal> find_difference(running::Runner& old_run, running::Runner& new_run,
+                                                     std::size_t first_line, std::optional<std::size_t> end_line,
+                                                     const ProgramMap& map, dialect::Language language) {
+  while (!old_run.has_ended() && (!end_line || old_run.place().line < *end_line)) {
     const std::size_t line = old_run.place().line;
     const State before = old_run.result().state;
     const State new_before = new_run.result().state;
-    if (new_run.has_ended() || new_run.place().line != line)
+    if (new_run.has_ended() || new_run.place().line != line + first_line)
       return TransformationRefusal{TransformObstacle::EffectDiffers, line};
     old_run.step();
     new_run.step();
@@ -182,9 +190,9 @@ std::optional<TransformationRefusal> find_difference(std::string_view program, s
       if (const auto obstacle = blocks.compare(old_events[i], new_events[i]))
         return TransformationRefusal{*obstacle, line};
   }
-  return new_run.has_ended()
-             ? std::nullopt
-             : std::optional(TransformationRefusal{TransformObstacle::EffectDiffers, old_run.result().line});
+  const bool is_whole = end_line ? !old_run.has_ended() : new_run.has_ended();
+  return is_whole ? std::nullopt
+                  : std::optional(TransformationRefusal{TransformObstacle::EffectDiffers, old_run.result().line});
 }
 
 }  // namespace isocnc::transforming

@@ -44,6 +44,8 @@ static const Text& reason(TransformObstacle obstacle) {
                                      "sulla macchina simulata l'avanzamento sarebbe un altro"};
   static constexpr Text kEffectDiffers{"on the simulated machine the block would do something else",
                                        "sulla macchina simulata il blocco farebbe altro"};
+  static constexpr Text kJumpRepeated{"a program with an IF is not repeated: its labels would be there several times",
+                                      "un programma con un IF non si ripete: le sue etichette ci sarebbero più volte"};
   static constexpr Text kNewError{"the new program would stop here: {}", "il nuovo programma si fermerebbe qui: {}"};
   switch (obstacle) {
     case TransformObstacle::ProgramError:
@@ -70,6 +72,8 @@ static const Text& reason(TransformObstacle obstacle) {
       return kFeedDiffers;
     case TransformObstacle::EffectDiffers:
       return kEffectDiffers;
+    case TransformObstacle::JumpRepeated:
+      return kJumpRepeated;
     case TransformObstacle::NewError:
       return kNewError;
   }

@@ -9,6 +9,7 @@
 
 #include "analyzer/transforming/block_transformer.h"
 #include "analyzer/transforming/proof.h"
+#include "analyzer/transforming/repetition.h"
 #include "interpreter/execution/execute.h"
 #include "interpreter/syntax/each_tree.h"
 
@@ -162,6 +163,7 @@ class ProgramTransformer {
 
 std::variant<std::string, TransformationRefusal> transform(std::string_view text, const Transformation& transformation,
                                                            const execution::Setup& setup, dialect::Language language) {
+  if (transformation.movement == Movement::Repeat) return repeated(text, transformation, setup, language);
   return ProgramTransformer(text, transformation, setup, language).transform();
 }
 

@@ -21,8 +21,15 @@ static constexpr Text kWrongShift{"--shift takes a way in mm along X, Y and, if 
                                   "0,0,5"};
 static constexpr Text kWrongFeed{"--scale-feed takes a factor from 0.001 to 1000, such as 0.8",
                                  "--scale-feed vuole un fattore da 0.001 a 1000, come 0.8"};
-static constexpr Text kOneMovement{"one of --mirror, --rotate and --shift at a time",
-                                   "uno solo fra --mirror, --rotate e --shift alla volta"};
+static constexpr Text kWrongRepeat{
+    "--repeat takes columns and rows, up to {} in all, and the way in mm between columns in X and between rows in Y, "
+    "such "
+    "as 3,2,120,80",
+    "--repeat vuole colonne e righe, in tutto fino a {}, e la distanza in mm fra le colonne in X e fra le righe in Y, "
+    "come "
+    "3,2,120,80"};
+static constexpr Text kOneMovement{"one of --mirror, --rotate, --shift and --repeat at a time",
+                                   "uno solo fra --mirror, --rotate, --shift e --repeat alla volta"};
 static constexpr Text kAboutAlone{"--about goes with --mirror or --rotate", "--about va con --mirror o --rotate"};
 
 /// Numbers with commas between them, as programs write numbers; nothing if one cannot be read, or is too far away.
@@ -48,10 +55,27 @@ static std::optional<std::vector<double>> read_lengths(std::string_view text, st
   return numbers;
 }
 
+/// Whether the numbers make sense.
+static bool read_repeat(std::string_view text, Transformation& transformation) {
+  const auto numbers = read_lengths(text, 4, 4);
+  if (!numbers) return false;
+  const auto is_count = [](double number) {
+    return number >= 1 && number <= kMaxCopies && number == std::floor(number);
+  };
+  if (!is_count((*numbers)[0]) || !is_count((*numbers)[1])) return false;
+  const int count = static_cast<int>((*numbers)[0] * (*numbers)[1]);
+  if (count < 2 || count > kMaxCopies) return false;
+  transformation.movement = Movement::Repeat;
+  transformation.columns = static_cast<int>((*numbers)[0]);
+  transformation.rows = static_cast<int>((*numbers)[1]);
+  transformation.place = {(*numbers)[2], (*numbers)[3], 0};
+  return true;
+}
+
 std::variant<std::optional<Transformation>, std::string> TransformRequest::read(dialect::Language language) const {
   const auto wrong = [&](const Text& text) { return std::string(text.in(language)); };
   Transformation transformation;
-  if (!mirror.empty() + !rotate.empty() + !shift.empty() > 1) return wrong(kOneMovement);
+  if (!mirror.empty() + !rotate.empty() + !shift.empty() + !repeat.empty() > 1) return wrong(kOneMovement);
   if (!mirror.empty()) {
     const auto place = read_lengths(about, 1, 1);
     if (!place) return wrong(kWrongMirror);
@@ -72,6 +96,8 @@ std::variant<std::optional<Transformation>, std::string> TransformRequest::read(
     transformation.movement = Movement::Shift;
     transformation.place = {(*way)[0], (*way)[1], way->size() > 2 ? (*way)[2] : 0};
   }
+  if (!repeat.empty() && !read_repeat(repeat, transformation))
+    return dialect::format(kWrongRepeat, language, kMaxCopies);
   if (!scale_feed.empty()) {
     const auto factor = read_lengths(scale_feed, 1, 1);
     if (!factor || factor->front() < kMinFeedFactor || factor->front() > kMaxFeedFactor) return wrong(kWrongFeed);

@@ -15,6 +15,7 @@ struct TransformRequest {
   std::string rotate;
   std::string about;
   std::string shift;
+  std::string repeat;
   std::string scale_feed;
 
   /// What they ask for; nothing without any; or what is wrong with them, in a language.

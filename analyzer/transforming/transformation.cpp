@@ -50,6 +50,7 @@ PoseMap face_map(const Transformation& transformation) {
       break;
     case Movement::Shift:
     case Movement::None:
+    case Movement::Repeat:
       break;
   }
   return map;
@@ -73,6 +74,7 @@ PoseMap workpiece_map(const Transformation& transformation) {
       map.offset = place;
       break;
     case Movement::None:
+    case Movement::Repeat:  // Each copy is a shift.
       break;
   }
   return map;

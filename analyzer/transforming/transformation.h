@@ -7,21 +7,25 @@
 
 namespace isocnc::transforming {
 
-enum class Movement : std::uint8_t { None, MirrorX, MirrorY, Rotate, Shift };
+enum class Movement : std::uint8_t { None, MirrorX, MirrorY, Rotate, Shift, Repeat };
 
 /// Lengths and angles beyond this are mistakes; mm, degrees. So are feed factors beyond the other two.
 inline constexpr double kMaxPlace = 1e6;
 inline constexpr double kMinFeedFactor = 0.001;
 inline constexpr double kMaxFeedFactor = 1000;
+/// More copies are a mistake.
+inline constexpr int kMaxCopies = 1000;
 
 /// What is done to a program. Its places are those of the workpiece frame (G92, I.3.2); lengths in mm, angles in
 /// degrees.
 struct Transformation {
   Movement movement = Movement::None;
   /// Mirrors: x or y stays where it equals that of `place`. Rotate: the center, counterclockwise seen from above.
-  /// Shift: the way.
+  /// Shift: the way. Repeat: the way in x from column to column, and that in y from row to row.
   geometry::Vec3 place = geometry::Vec3::Zero();
-  double degrees = 0;      ///< Rotate.
+  double degrees = 0;  ///< Rotate.
+  int columns = 1;     ///< Repeat; with `rows` at most kMaxCopies in all.
+  int rows = 1;
   double feed_factor = 1;  ///< Each F is multiplied by it; positive.
 };
 

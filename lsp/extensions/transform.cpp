@@ -1,4 +1,4 @@
-#include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -16,6 +16,8 @@ using transforming::Movement;
 using transforming::Transformation;
 
 namespace {
+
+constexpr std::size_t kNewLine = std::numeric_limits<std::size_t>::max();
 
 struct TransformParams {
   Transformation transformation;
@@ -40,9 +42,25 @@ geometry::Vec3 point_of(const Json& json, std::size_t maximum) {
   return point;
 }
 
+/// Columns, rows, and how far they are apart.
+void read_repeat(const Json& json, Transformation& transformation) {
+  if (!json.is_array() || json.size() != 4) reject("repeat is columns, rows and two lengths", json);
+  const auto count_of = [](const Json& count) {
+    if (!count.is_number_integer()) reject("a number of copies is missing", count);
+    return static_cast<int>(number_of(count, 1, transforming::kMaxCopies));
+  };
+  transformation.movement = Movement::Repeat;
+  transformation.columns = count_of(json[0]);
+  transformation.rows = count_of(json[1]);
+  transformation.place = {length_of(json[2]), length_of(json[3]), 0};
+  const int count = transformation.columns * transformation.rows;
+  if (count < 2 || count > transforming::kMaxCopies) reject("there are too few copies, or too many", json);
+}
+
 void from_json(const Json& json, TransformParams& params) {
   Transformation& transformation = params.transformation;
-  const int movements = json.contains("mirror") + json.contains("rotate") + json.contains("shift");
+  const int movements =
+      json.contains("mirror") + json.contains("rotate") + json.contains("shift") + json.contains("repeat");
   if (movements > 1) reject("one movement at a time", json);
   if (json.contains("mirror")) {
     const Json& axis = json.at("mirror");
@@ -57,6 +75,8 @@ void from_json(const Json& json, TransformParams& params) {
   } else if (json.contains("shift")) {
     transformation.movement = Movement::Shift;
     transformation.place = point_of(json.at("shift"), 3);
+  } else if (json.contains("repeat")) {
+    read_repeat(json.at("repeat"), transformation);
   }
   if (json.contains("scaleFeed")) {
     transformation.feed_factor =
@@ -71,11 +91,19 @@ Json transform_program(const Snapshot& snapshot, const TransformParams& params) 
       transforming::transform(snapshot.document().text(), params.transformation, snapshot.setup(), snapshot.language());
   if (const auto* refusal = std::get_if<transforming::TransformationRefusal>(&made))
     throw rpc::Error(rpc::ErrorCode::RequestFailed, refusal->message(snapshot.language()));
-  std::vector<protocol::TextEdit> edits;
-  std::size_t line = 0;
-  syntax::each_tree(std::get<std::string>(made), [&](const syntax::LineTree& tree, std::string_view) {
-    if (auto edit = queries::line_edit(snapshot, line++, tree.text)) edits.push_back(std::move(*edit));
+  const auto& text = std::get<std::string>(made);
+  std::vector<std::size_t> origins;
+  const std::size_t count = snapshot.document().line_count();
+  syntax::each_tree(text, [&](const syntax::LineTree& tree, std::string_view) {
+    const std::size_t line = origins.size();
+    // Up to the first copy, the document stays.
+    const bool is_copied = params.transformation.movement == Movement::Repeat &&
+                           ((line > 0 && origins.back() == kNewLine) || line >= count ||
+                            snapshot.document().text_of_line(line) != tree.text);
+    const bool is_kept = line < count && !is_copied;
+    origins.push_back(is_kept ? line : kNewLine);
   });
+  const std::vector<protocol::TextEdit> edits = queries::edits_to(snapshot, text, origins);
   return {{"edit", queries::workspace_edit(snapshot, edits)}};
 }
 

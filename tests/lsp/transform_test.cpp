@@ -38,6 +38,17 @@ TEST(Transform, EditsTheDocument) {
   }
 }
 
+TEST(Transform, RepeatsTheDocument) {
+  Session session;
+  session.start();
+  session.open(kLeftUri, std::string(kLeftPart));
+  session.ask("workspace/executeCommand", transform_command({{"repeat", {1, 2, 0, 50}}}));
+  const Json edits = session.wait_for("workspace/applyEdit")["params"]["edit"]["changes"][kLeftUri];
+  EXPECT_EQ(ClientText(std::string(kLeftPart)).with(edits),
+            "M06 T101001\r\nG00 X10 Y0 Z5 ; \xC3\xA8 \r\nG02 X20 Y10 I20 J0 F500\r\n(copy 2 of 2: X+0 Y+50)\r\n"
+            "M06 T101001\r\nG00 X10 Y50 Z5 ; \xC3\xA8 \r\nG02 X20 Y60 I20 J50 F500\r\nM02\r\n");
+}
+
 TEST(Transform, RefusesWithTheLine) {
   Session session;
   session.start();
@@ -58,6 +69,10 @@ TEST(Transform, RefusesParametersThatAreNone) {
       {{"mirror", "Z"}, {"about", 1}},
       {{"mirror", "X"}, {"about", "1"}},
       {{"mirror", "X"}, {"about", 1e9}},
+      {{"repeat", {1, 1, 5, 5}}},
+      {{"repeat", {2.5, 1, 5, 5}}},
+      {{"repeat", {1000, 2, 5, 5}}},
+      {{"repeat", {2, 2, 5}}},
       {{"mirror", "X"}, {"about", 1}, {"shift", {1, 2}}},
       {{"rotate", 90}, {"about", 1}},
       {{"rotate", 90}, {"about", {1, 2, 3}}},

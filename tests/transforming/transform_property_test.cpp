@@ -50,6 +50,7 @@ Vec3 moved(const Transformation& how, const Vec3& p) {
     case Movement::Shift:
       return p + how.place;
     case Movement::None:
+    case Movement::Repeat:
       break;
   }
   return p;
@@ -137,6 +138,34 @@ TEST(TransformProperty, RandomJobsMoveAsTheyMust) {
       Transformation nothing;
       expect_transformed(program, again, nothing, origin);
       if (HasFailure()) return;
+    }
+  }
+}
+
+/// The feed moves of all copies: those of the program, each as far away as its copy.
+TEST(TransformProperty, RandomJobsAreRepeatedAtEachPlaceOfTheGrid) {
+  for (const std::uint64_t seed : support::seeds(60)) {
+    Random random(seed);
+    const std::string program = RandomJob(random).text(40);
+    const Transformation how{.movement = Movement::Repeat, .place = {120.5, -80, 0}, .columns = 3, .rows = 2};
+    const std::string repeated = made(program, how);
+    SCOPED_TRACE(testing::Message() << "seed " << seed << "\n" << repeated);
+    const RecordedRun once = record(program);
+    const RecordedRun all = record(repeated);
+    ASSERT_EQ(comparison::error_of(all), "");
+    const auto feed_ends = [](const RecordedRun& run) {
+      std::vector<Vec3> ends;
+      for (const MachineAction& action : run.actions)
+        if (action.is_motion() && !action.is_rapid) ends.push_back(action.to.tip);
+      return ends;
+    };
+    const std::vector<Vec3> ends = feed_ends(once);
+    const std::vector<Vec3> all_ends = feed_ends(all);
+    ASSERT_EQ(all_ends.size(), 6 * ends.size());
+    for (std::size_t i = 0; i < all_ends.size(); ++i) {
+      const std::size_t copy = i / ends.size();
+      const Vec3 away(120.5 * static_cast<double>(copy % 3), copy < 3 ? 0 : -80, 0);
+      ASSERT_LT((all_ends[i] - ends[i % ends.size()] - away).norm(), 2e-3) << "copy " << copy;
     }
   }
 }

@@ -161,12 +161,49 @@ const RefusalCase kRefusals[] = {
     {"ATiltedToolWhoseCIsThatOfHome", kTurn,
      "M06 T101001\nG92 X5\nG92 X0\nG00 B30\nG92 X5\nG00 X0 Y0 Z0\nG01 X1 F100\nM02\n", 7,
      TransformObstacle::StartUnknown, "a place that the program has not given"},
+    {"AnIfRepeated",
+     {.movement = Movement::Repeat, .place = {50, 30, 0}, .columns = 2, .rows = 2},
+     "M06 T101001\nIF VGPL = 1 GOTO N5\nN5 M02\n",
+     2,
+     TransformObstacle::JumpRepeated,
+     "IF"},
+    {"AnErrorRepeated",
+     {.movement = Movement::Repeat, .place = {50, 30, 0}, .columns = 2, .rows = 2},
+     "M06 T101001\nG00 X1.2.3\nM02\n",
+     2,
+     TransformObstacle::ProgramError,
+     "ISO"},
     {"AFaceAtHome", kMirrorX, "M06 T101001\nG00 Z0\nG28 X1 J1 R1\nG27\nM02\n", 3, TransformObstacle::FaceUnknown,
      "the face"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Transform, Refusals, testing::ValuesIn(kRefusals),
                          [](const auto& each) { return std::string(each.param.name); });
+
+const Transformation kTwice{.movement = Movement::Repeat, .place = {50, 30, 0}, .columns = 2, .rows = 1};
+
+TEST(Transform, RepeatsWithTheModesOfTheStart) {
+  EXPECT_EQ(std::get<std::string>(transformed(
+                "N1 M06 T101001\r\nG92 X5 Y6 Z7\r\nG00 X1 Y2 Z0\r\nG91 G01 X3 F100\r\nG70\r\nM02\r\nrest", kTwice)),
+            "N1 M06 T101001\r\nG92 X5 Y6 Z7\r\nG00 X1 Y2 Z0\r\nG91 G01 X3 F100\r\nG70\r\n(copy 2 of 2: X+50 "
+            "Y+0)\r\nG71\r\nG90\r\n"
+            "G92 X0 Y0 Z0\r\nN1 M06 T101001\r\nG92 X5 Y6 Z7\r\nG00 X51 Y2 Z0\r\nG91 G01 X3 F100\r\nG70\r\nM02\r\nrest");
+  Transformation rows = kTwice;
+  rows.columns = 1;
+  rows.rows = 3;
+  rows.feed_factor = 0.5;
+  EXPECT_EQ(std::get<std::string>(transformed("M06 T101001\nG00 X1 Y2 Z0\nG01 X3 F100\nM02\n", rows)),
+            "M06 T101001\nG00 X1 Y2 Z0\nG01 X3 F50\n(copy 2 of 3: X+0 Y+30)\nM06 T101001\nG00 X1 Y32 Z0\nG01 X3 F50\n"
+            "(copy 3 of 3: X+0 Y+60)\nM06 T101001\nG00 X1 Y62 Z0\nG01 X3 F50\nM02\n");
+}
+
+TEST(Transform, DoesNotRepeatWhatEndsElsewhereThanItBegins) {
+  // The second copy would begin with B where the first one has left it.
+  const auto result = transformed("M06 T101001\nG00 X1 Y2 Z0\nG49\nG01 X3 F100\nB10\nG48\nM02\n", kTwice);
+  ASSERT_TRUE(std::holds_alternative<TransformationRefusal>(result)) << std::get<std::string>(result);
+  EXPECT_EQ(std::get<TransformationRefusal>(result).obstacle, TransformObstacle::StartUnknown);
+  EXPECT_EQ(std::get<TransformationRefusal>(result).line, 3U);
+}
 
 TEST(Transform, ScalesFeeds) {
   EXPECT_EQ(std::get<std::string>(transformed("M06 T101001\nG00 X0 Y0 Z5\nG01 X10 F1500\nX20 F1333\nf 10 (F5)\nX9\n"

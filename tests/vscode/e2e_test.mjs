@@ -360,7 +360,7 @@ test('a program is mirrored by a command, and back', async () => {
   await editor.goTo(14);
   const before = await editor.lineText(14);
   const mirror = async () => {
-    await editor.command('ISOCNC: Mirror, Rotate, Shift or Scale Feeds...');
+    await editor.command('ISOCNC: Mirror, Rotate, Shift, Repeat or Scale Feeds...');
     await page.locator('.quick-input-list .monaco-list-row', { hasText: 'Mirror X' }).click();
     await page.locator('.quick-input-box input[placeholder="400"]').waitFor();
     await page.keyboard.type('300');

@@ -34,6 +34,12 @@ async function shift(): Promise<Transformation | undefined> {
   return by && { shift: by };
 }
 
+async function repeat(): Promise<Transformation | undefined> {
+  const counts = await ask(vscode.l10n.t('Columns along X and rows along Y'), '3, 2', 2);
+  const way = counts && (await ask(vscode.l10n.t('The way in mm from column to column, and from row to row'), '120, 80', 2));
+  return way && { repeat: [...counts, ...way] };
+}
+
 async function scaleFeed(): Promise<Transformation | undefined> {
   const factor = await ask(vscode.l10n.t('The factor for each F'), '0.8', 1);
   return factor && { scaleFeed: factor[0] };
@@ -46,6 +52,7 @@ export async function askForTransformation(): Promise<Transformation | undefined
     { label: vscode.l10n.t('Mirror Y'), ask: () => mirror('Y') },
     { label: vscode.l10n.t('Rotate'), ask: rotate },
     { label: vscode.l10n.t('Shift'), ask: shift },
+    { label: vscode.l10n.t('Repeat'), ask: repeat },
     { label: vscode.l10n.t('Scale feeds'), ask: scaleFeed },
   ];
   return (await vscode.window.showQuickPick(choices))?.ask();
