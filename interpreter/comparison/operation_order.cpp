@@ -40,8 +40,14 @@ const execution::ToolCode& tool_at(const RecordedRun& run, const ComparedOperati
   return run.tools[run.actions[operation.begin].tool].code;
 }
 
+/// The tool of the operation before one; with the line of its M06 where it is used several times. Empty for none.
 std::string tool_before(const RecordedRun& run, const std::vector<ComparedOperation>& operations, std::size_t index) {
-  return index == 0 ? "" : running::tool_name(tool_at(run, operations[index - 1]));
+  if (index == 0) return "";
+  const execution::ToolCode& tool = tool_at(run, operations[index - 1]);
+  const auto uses = std::count_if(operations.begin(), operations.end(),
+                                  [&](const ComparedOperation& each) { return tool_at(run, each) == tool; });
+  const std::string name = running::tool_name(tool);
+  return uses < 2 ? name : name + "@" + std::to_string(run.actions[operations[index - 1].begin].line + 1);
 }
 
 /// Finds which operations of two runs belong together, and brings them into one order.
@@ -51,7 +57,7 @@ class OperationSorter {
       : runs_(runs), options_(options), of_a_(operations_of(runs.a)), of_b_(operations_of(runs.b)) {}
 
   std::optional<OrderedRuns> sort() {
-    if (of_a_.size() > kMaxOperations || of_b_.size() > kMaxOperations || has_same_tools()) return std::nullopt;
+    if (of_a_.size() > kMaxOperations || of_b_.size() > kMaxOperations) return std::nullopt;
     pair_exact();
     if (!pair_rest()) return std::nullopt;
     const std::vector<bool> stays = staying();
@@ -67,14 +73,7 @@ class OperationSorter {
       place_of_b[partner] = ordered.b.actions.size();
       append(runs_.a, of_a_[i], ordered.a);
       append(runs_.b, of_b_[partner], ordered.b);
-      if (of_a_[i].is_exact) {
-        // They differ in the way there at most, which follows from the order.
-        for (std::size_t k = place_of_b[partner], j = place_of_a[i]; k < ordered.b.actions.size(); ++k, ++j) {
-          if (!ordered.b.actions[k].is_rapid) continue;
-          ordered.b.actions[k].from = ordered.a.actions[j].from;
-          ordered.b.actions[k].to = ordered.a.actions[j].to;
-        }
-      }
+      same_way_there(of_a_[i], of_b_[partner], ordered, place_of_b[partner]);
       if (!stays[i]) ordered.changes.push_back({moved(i), place_of_a[i]});
     }
     for (std::size_t i = 0; i < of_a_.size(); ++i)
@@ -98,20 +97,6 @@ class OperationSorter {
 
   static Difference first(const std::vector<ComparedOperation>& operations) {
     return static_cast<Difference>(operations.empty() ? 0 : operations[0].begin);
-  }
-
-  bool has_same_tools() const {
-    return std::equal(of_a_.begin(), of_a_.end(), of_b_.begin(), of_b_.end(),
-                      [&](const ComparedOperation& left, const ComparedOperation& right) {
-                        return tool_at(runs_.a, left) == tool_at(runs_.b, right);
-                      });
-  }
-
-  /// What both do before the first tool change.
-  bool has_same_prologue() const {
-    const std::size_t a_count = of_a_.empty() ? runs_.a.actions.size() - 1 : of_a_[0].begin;
-    const std::size_t b_count = of_b_.empty() ? runs_.b.actions.size() - 1 : of_b_[0].begin;
-    return a_count == b_count && is_same({0, a_count}, {0, b_count});
   }
 
   /// Whether both do the same, but for where the axes stand that the way there leaves where they are.
@@ -144,18 +129,32 @@ class OperationSorter {
            is_equal(one.from.c, one.to.c, other.from.c, other.to.c);
   }
 
+  /// Pairs operations that do the same: those at both ends as they stand, the others wherever they are.
   void pair_exact() {
+    const std::size_t fewer = std::min(of_a_.size(), of_b_.size());
+    std::size_t first = 0;
+    while (first < fewer && pair_if_same(first, first)) ++first;
+    for (std::size_t last = 1; last + first <= fewer && pair_if_same(of_a_.size() - last, of_b_.size() - last);) ++last;
     std::map<std::pair<execution::ToolCode, std::size_t>, std::vector<std::size_t>> known;
     for (std::size_t k = 0; k < of_b_.size(); ++k)
-      known[{tool_at(runs_.b, of_b_[k]), of_b_[k].end - of_b_[k].begin}].push_back(k);
+      if (of_b_[k].partner == ComparedOperation::kNone)
+        known[{tool_at(runs_.b, of_b_[k]), of_b_[k].end - of_b_[k].begin}].push_back(k);
     for (std::size_t i = 0; i < of_a_.size(); ++i) {
-      for (const std::size_t k : known[{tool_at(runs_.a, of_a_[i]), of_a_[i].end - of_a_[i].begin}]) {
-        if (of_b_[k].partner != ComparedOperation::kNone || !is_same(of_a_[i], of_b_[k])) continue;
-        pair(i, k);
-        of_a_[i].is_exact = of_b_[k].is_exact = true;
-        break;
-      }
+      if (of_a_[i].partner != ComparedOperation::kNone) continue;
+      for (const std::size_t k : known[{tool_at(runs_.a, of_a_[i]), of_a_[i].end - of_a_[i].begin}])
+        if (pair_if_same(i, k)) break;
     }
+  }
+
+  bool pair_if_same(std::size_t i, std::size_t k) {
+    const ComparedOperation& left = of_a_[i];
+    const ComparedOperation& right = of_b_[k];
+    if (right.partner != ComparedOperation::kNone || left.end - left.begin != right.end - right.begin ||
+        tool_at(runs_.a, left) != tool_at(runs_.b, right) || !is_same(left, right))
+      return false;
+    pair(i, k);
+    of_a_[i].is_exact = of_b_[k].is_exact = true;
+    return true;
   }
 
   void pair(std::size_t i, std::size_t k) {
@@ -170,31 +169,41 @@ class OperationSorter {
     return indices;
   }
 
-  /// Whether an operation that only one run has is missing in the other one, and not only its tool change: then the
-  /// operation before it would have its actions there.
+  /// Whether an operation that only one run has is missing in the other one, and not only its tool change: then what
+  /// comes before it would have its actions there.
   static bool is_missing(const std::vector<ComparedOperation>& operations, const std::vector<ComparedOperation>& others,
                          std::size_t index) {
     const auto size = [](const ComparedOperation& operation) { return operation.end - operation.begin; };
-    if (index == 0 || operations[index - 1].partner == ComparedOperation::kNone) return true;
+    const std::size_t half = size(operations[index]) / 2;
+    if (index == 0) return others.empty() || others[0].begin <= operations[0].begin + half;
     const ComparedOperation& before = operations[index - 1];
-    return size(others[before.partner]) <= size(before) + size(operations[index]) / 2;
+    return before.partner == ComparedOperation::kNone || size(others[before.partner]) <= size(before) + half;
   }
 
   /// Those that are otherwise keep their order; false where it is not clear which of them belong together.
   bool pair_rest() {
-    const std::vector<std::size_t> a_alone = alone(of_a_);
-    const std::vector<std::size_t> b_alone = alone(of_b_);
-    if (a_alone.size() == b_alone.size()) {
-      for (std::size_t i = 0; i < a_alone.size(); ++i) pair(a_alone[i], b_alone[i]);
-      return true;
-    }
-    pair_by_tool(a_alone, b_alone);
+    // As many of both: those in the same place got another tool. Else some are more.
+    const bool are_as_many = alone(of_a_).size() == alone(of_b_).size();
+    if (are_as_many) pair_by_place();
+    pair_by_tool(alone(of_a_), alone(of_b_));
+    if (!are_as_many) pair_by_place();
     const std::vector<std::size_t> a_left = alone(of_a_);
     const std::vector<std::size_t> b_left = alone(of_b_);
-    if (!a_left.empty() && !b_left.empty()) return false;
-    if (of_a_.empty() || of_b_.empty() || !has_same_prologue()) return false;
+    if (a_left.empty() && b_left.empty()) return true;
+    // After an error nothing is done: that has not been removed.
+    if (runs_.a.actions.back().number != runs_.b.actions.back().number) return false;
     return std::all_of(a_left.begin(), a_left.end(), [&](std::size_t i) { return is_missing(of_a_, of_b_, i); }) &&
            std::all_of(b_left.begin(), b_left.end(), [&](std::size_t k) { return is_missing(of_b_, of_a_, k); });
+  }
+
+  /// Pairs operations that come after the same ones.
+  void pair_by_place() {
+    for (const std::size_t i : alone(of_a_)) {
+      const bool has_place = i == 0 || of_a_[i - 1].partner != ComparedOperation::kNone;
+      if (!has_place) continue;
+      const std::size_t k = i == 0 ? 0 : of_a_[i - 1].partner + 1;
+      if (k < of_b_.size() && of_b_[k].partner == ComparedOperation::kNone) pair(i, k);
+    }
   }
 
   /// Pairs as many operations of the same tools as possible, in their order.
@@ -290,6 +299,26 @@ class OperationSorter {
     const std::size_t action = other[own[next].partner].begin;
     (is_of_a ? change.new_start : change.old_start) = (is_of_a ? runs_.b : runs_.a).actions[action].line;
     return change;
+  }
+
+  /// The rapids at the begin of two operations that belong together lead there from where the order has it. Those of
+  /// the second one stand at `place`.
+  void same_way_there(const ComparedOperation& left, const ComparedOperation& right, OrderedRuns& ordered,
+                      std::size_t place) const {
+    bool is_first = true;
+    for (std::size_t i = left.begin, k = right.begin; i < left.end && k < right.end; ++i, ++k, ++place) {
+      const MachineAction& one = runs_.a.actions[i];
+      const MachineAction& other = runs_.b.actions[k];
+      if (one.is_motion() != other.is_motion()) return;
+      if (!one.is_motion()) continue;
+      if (one.arc != MachineAction::kNone || other.arc != MachineAction::kNone) return;
+      const MachineAction& there = ordered.a.actions[ordered.a.actions.size() - (left.end - i)];
+      const bool is_along = goes_along(one, other);
+      if (is_first || is_along) ordered.b.actions[place].from = there.from;
+      is_first = false;
+      if (!is_along) return;
+      ordered.b.actions[place].to = there.to;
+    }
   }
 
   /// Adds an operation, which begins where the one before it ends now.
