@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <set>
 
 #include "analyzer/check/check_text.h"
 #include "analyzer/formats/rendering.h"
 #include "analyzer/selection/run_report.h"
 #include "analyzer/selection/verified.h"
 #include "analyzer/selection/vgpl_values.h"
+#include "interpreter/execution/execute.h"
+#include "interpreter/syntax/each_tree.h"
 #include "interpreter/syntax/line_finder.h"
 
 namespace isocnc::interpreter {
@@ -34,25 +38,41 @@ std::vector<sheet::SheetFinding> findings_of(const sheet::SheetSubject& subject,
   return findings;
 }
 
-/// The registers that the program expects, and the time of each path on which VGPL leads it.
-void add_paths(const sheet::SheetSubject& subject, const simulation::TakenPath& first, sheet::Sheet& sheet) {
+/// The registers that IFs compare though the program assigns them nowhere.
+std::set<int> registers_without_assignment(std::string_view text) {
+  std::set<int> compared;
+  std::set<int> assigned;
+  syntax::each_tree(text, [&](const syntax::LineTree& line, std::string_view) {
+    if (line.jump != nullptr && line.jump->condition_is_known() && line.jump->variable > 0)
+      compared.insert(line.jump->variable);
+    for (const syntax::Instruction& instruction : line.instructions)
+      if (instruction.kind == syntax::InstructionKind::Assignment)
+        if (const auto value = execution::assigned_by(instruction, line)) assigned.insert(value->reg);
+  });
+  std::set<int> without;
+  std::set_difference(compared.begin(), compared.end(), assigned.begin(), assigned.end(),
+                      std::inserter(without, without.end()));
+  return without;
+}
+
+/// What the program expects: registers, and the values of VGPL with the path of each.
+void add_paths(sheet::SheetSubject subject, const simulation::TakenPath& first, sheet::Sheet& sheet) {
   selection::VgplValues values(subject.text);
-  sheet.registers = values.unassigned_registers(first);
-  if (values.constants().empty()) return;
-  running::RunOptions options = subject.run;
+  std::set<int> registers = registers_without_assignment(subject.text);
   simulation::TakenPath path = first;
   while (true) {
-    const selection::VgplValues::CellSet cells = values.cells_along(path);
-    const auto [seconds, stop] = sheet::time_of(subject.text, options, subject.machine.timed, subject.language);
-    sheet.paths.push_back({values.in_words(cells), seconds, stop});
+    for (const int each : values.unassigned_registers(path)) registers.insert(each);
+    const std::string words = values.in_words(values.cells_along(path));
+    // One path for all values is none that is worth a word.
+    if (!words.empty()) sheet::add_path(sheet, subject, words);
     values.take(path);
     const std::optional<double> next = values.next();
+    sheet.has_other_paths = next.has_value();
     if (!next || sheet.paths.size() == selection::kMaxVerifiedPaths) break;
-    options.vgpl = *next;
-    path = verification::verified_run(subject.text, options, subject.machine.timed, nullptr).outcome.runs.front();
+    subject.run.vgpl = *next;
+    path = verification::verified_run(subject.text, subject.run, subject.machine.timed, nullptr).outcome.runs.front();
   }
-  // One path for all values is none that is worth a word.
-  if (sheet.paths.size() == 1 && sheet.paths[0].values.empty()) sheet.paths.clear();
+  sheet.registers.assign(registers.begin(), registers.end());
 }
 
 }  // namespace

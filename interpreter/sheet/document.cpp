@@ -1,5 +1,8 @@
 #include "interpreter/sheet/document.h"
 
+#include <algorithm>
+#include <span>
+
 #include <fmt/format.h>
 
 #include "interpreter/dialect/format.h"
@@ -19,6 +22,12 @@ constexpr Text kTitle{"Setup sheet", "Scheda di attrezzaggio"};
 constexpr Text kPage{"page {} of {}", "pagina {} di {}"};
 constexpr Text kProgram{"Program", "Programma"};
 constexpr Text kProgramLines{"{}, {} lines", "{}, {} righe"};
+constexpr Text kProgramLine{"{}, 1 line", "{}, 1 riga"};
+constexpr Text kRunWith{"Run with", "Eseguito con"};
+constexpr Text kUnits{"Units", "Unità"};
+constexpr Text kUnitsInForce{
+    "mm, mm/min and rev/min, also of blocks under G70; findings in inches say so",
+    "mm, mm/min e giri/min, anche dei blocchi sotto G70; le segnalazioni in pollici lo dicono"};
 constexpr Text kMachine{"Machine", "Macchina"};
 constexpr Text kNoMachine{"none described: default times, no travel", "non descritta: tempi predefiniti, senza corse"};
 constexpr Text kCycleTime{"Cycle time", "Tempo ciclo"};
@@ -43,7 +52,12 @@ constexpr Text kFaceOfLine{"face, line {}", "faccia, riga {}"};
 constexpr Text kInMachine{"In the machine", "In macchina"};
 constexpr Text kNoZeros{"The program sets no zero point: it counts from the machine's.",
                         "Il programma non imposta uno zero: conta da quello della macchina."};
-constexpr Text kSetup{"On the table, from the first zero", "Sulla tavola, dal primo zero"};
+constexpr Text kMachineZero{"machine", "macchina"};
+constexpr Text kMoreZeros{"and {} more", "e altri {}"};
+constexpr Text kSetup{"On the table, from the first zero of the program ({} in the machine)",
+                      "Sulla tavola, dal primo zero del programma ({} in macchina)"};
+constexpr Text kSetupInMachine{"On the table, from the machine's zero", "Sulla tavola, dallo zero macchina"};
+constexpr Text kBelow{"below {}", "sotto {}"};
 constexpr Text kBody{"What", "Che cosa"};
 constexpr Text kSize{"Size", "Misure"};
 constexpr Text kBlank{"blank", "grezzo"};
@@ -51,10 +65,13 @@ constexpr Text kFixture{"fixture", "attrezzatura"};
 constexpr Text kTarget{"finished part", "pezzo finito"};
 constexpr Text kSpoilboard{"spoilboard", "martire"};
 constexpr Text kExpects{"What the program expects", "Che cosa si aspetta il programma"};
-constexpr Text kFunctions{"M functions", "Funzioni M"};
 constexpr Text kRegisters{"Registers that an IF compares and the program does not set",
                           "Registri che un IF confronta e il programma non imposta"};
+constexpr Text kOnlyWith{"only with {}", "solo con {}"};
+constexpr Text kOtherVgpl{"other values of VGPL", "altri valori di VGPL"};
+constexpr Text kNotRun{"not run", "non eseguiti"};
 constexpr Text kFindings{"Findings", "Segnalazioni"};
+constexpr Text kMoreFindings{"{} more: isolint shows all of them.", "Altre {}: isolint le mostra tutte."};
 constexpr Text kNoFindings{"None.", "Nessuna."};
 constexpr Text kLine{"Line", "Riga"};
 constexpr Text kCode{"Code", "Codice"};
@@ -82,10 +99,28 @@ std::string shown(const Range& range, int decimals = 3) {
   return least == greatest ? least : least + " … " + greatest;
 }
 
+/// A range of speeds or feeds: whole numbers, unless they are small.
+std::string shown_rate(const Range& range) {
+  constexpr double kSmall = 10;
+  return shown(range, range.minimum < kSmall ? 3 : 0);
+}
+
+/// Of both directions: `12000; 8000 M04`.
+std::string shown_speeds(const SheetTool& tool) {
+  std::string speeds = tool.speed.maximum > 0 ? shown_rate(tool.speed) : "";
+  if (tool.left_speed.maximum > 0) speeds += (speeds.empty() ? "" : "; ") + shown_rate(tool.left_speed) + " M04";
+  return speeds.empty() ? "–" : speeds;
+}
+
 std::string shown(const std::optional<double>& value) { return value ? number(*value) : "–"; }
 
 std::string position(const geometry::Vec3& place) {
   return fmt::format("X{} Y{} Z{}", number(place.x()), number(place.y()), number(place.z()));
+}
+
+/// ` (only with VGPL = 2)`; empty for no values.
+std::string only_with(const std::string& values, Language language) {
+  return values.empty() ? "" : fmt::format(" ({})", dialect::format(kOnlyWith, language, values));
 }
 
 Table tools_table(const Sheet& sheet, Language language) {
@@ -102,13 +137,13 @@ Table tools_table(const Sheet& sheet, Language language) {
   for (std::size_t i = 0; i < sheet.tools.size(); ++i) {
     const SheetTool& tool = sheet.tools[i];
     const std::string name = running::tool_name(tool.code);
-    const bool turns = tool.speed.maximum > 0;
     table.rows.push_back({{"", tool.picture.lines.empty() ? nullptr : &tool.picture},
-                          {tool.name.empty() ? name : name + " " + tool.name, nullptr, color_of_tool(i)},
+                          {name + (tool.name.empty() ? "" : " " + tool.name) + only_with(tool.values, language),
+                           nullptr, color_of_tool(i)},
                           {shown(tool.length)},
                           {tool.radius ? number(2 * *tool.radius) : "–"},
-                          {turns ? shown(tool.speed, 0) + (tool.turns_left ? " M04" : "") : "–"},
-                          {tool.least_z ? shown(tool.feed, 0) : "–"},
+                          {shown_speeds(tool)},
+                          {tool.least_z ? shown_rate(tool.feed) : "–"},
                           {shown(tool.least_z)},
                           {fmt::format("{}", tool.uses)},
                           {simulation::shown_time(tool.seconds)}});
@@ -128,6 +163,11 @@ Table zeros_table(const Sheet& sheet, Language language) {
                {"Z", 2.2, true}},
               {}};
   std::size_t workpieces = 0;
+  if (sheet.machine_room) {
+    std::vector<TableCell> row{{worded(kMachineZero, language)}, {position(geometry::Vec3::Zero())}};
+    append_room(row, *sheet.machine_room);
+    table.rows.push_back(std::move(row));
+  }
   for (const simulation::FrameExtents& frame : sheet.frames) {
     std::vector<TableCell> row;
     row.push_back({frame.is_face ? dialect::format(kFaceOfLine, language, frame.line + 1)
@@ -136,6 +176,8 @@ Table zeros_table(const Sheet& sheet, Language language) {
     append_room(row, frame.extents);
     table.rows.push_back(std::move(row));
   }
+  if (sheet.frames_left_out > 0)
+    table.rows.push_back({{dialect::format(kMoreZeros, language, sheet.frames_left_out)}, {}, {}, {}, {}});
   return table;
 }
 
@@ -167,6 +209,13 @@ Table setup_table(const Sheet& sheet, Language language) {
       const std::string kind(name_of(role).in(language));
       const bool is_named = role == BodyRole::Fixture && !body.name.empty();
       std::vector<TableCell> row{{is_named ? body.name : kind}};
+      if (body.is_endless) {
+        for (const char* const text : {"", ""}) row.push_back({text});
+        row.push_back({dialect::format(kBelow, language, number(body.room[2].maximum))});
+        row.push_back({""});
+        table.rows.push_back(std::move(row));
+        continue;
+      }
       append_room(row, body.room);
       const auto size = [&](std::size_t axis) { return number(body.room[axis].maximum - body.room[axis].minimum); };
       row.push_back({fmt::format("{} × {} × {}", size(0), size(1), size(2))});
@@ -177,26 +226,29 @@ Table setup_table(const Sheet& sheet, Language language) {
 
 NamedValues expected(const Sheet& sheet, Language language) {
   NamedValues facts;
-  std::string functions;
   for (const SheetFunction& each : sheet.functions)
-    functions += fmt::format("{}M{}{}{} ({}×)", functions.empty() ? "" : ", ", each.number,
-                             each.name.empty() ? "" : " ", each.name, each.calls);
-  if (!functions.empty()) facts.rows.emplace_back(kFunctions.in(language), functions);
+    facts.rows.emplace_back(fmt::format("M{}{}{}", each.number, each.name.empty() ? "" : " ", each.name),
+                            fmt::format("{}×{}", each.calls, only_with(each.values, language)));
   std::string registers;
   for (const int each : sheet.registers) registers += fmt::format("{}V{}", registers.empty() ? "" : ", ", each);
   if (!registers.empty()) facts.rows.emplace_back(kRegisters.in(language), registers);
   for (const SheetPath& path : sheet.paths)
     facts.rows.emplace_back(path.values,
                             simulation::shown_time(path.seconds) + (path.stop.empty() ? "" : "; " + path.stop));
+  if (sheet.has_other_paths) facts.rows.emplace_back(worded(kOtherVgpl, language), worded(kNotRun, language));
   return facts;
 }
 
+/// Those of a hopeless program would fill a book.
+constexpr std::size_t kMaxFindings = 100;
+
 Table findings_table(const Sheet& sheet, Language language) {
   Table table{{{worded(kLine, language), 0.9, true},
-               {worded(kCode, language), 1.2, false},
+               {worded(kCode, language), 1.2, false, true},
                {worded(kMessage, language), 9, false}},
               {}};
-  for (const SheetFinding& each : sheet.findings)
+  const std::size_t count = std::min(sheet.findings.size(), kMaxFindings);
+  for (const SheetFinding& each : std::span(sheet.findings).first(count))
     table.rows.push_back({{fmt::format("{}", each.line + 1)},
                           {each.code},
                           {fmt::format("{}: {}", dialect::severity_name(each.severity, language), each.message)}});
@@ -213,10 +265,13 @@ SheetDocument document_of(const Sheet& sheet, Language language) {
   const auto fact = [&](const Text& name, std::string value) {
     facts.rows.emplace_back(name.in(language), std::move(value));
   };
-  fact(kProgram, dialect::format(kProgramLines, language, sheet.program, sheet.lines));
+  fact(kProgram, sheet.lines == 1 ? dialect::format(kProgramLine, language, sheet.program)
+                                  : dialect::format(kProgramLines, language, sheet.program, sheet.lines));
   facts.rows.emplace_back("SHA-256", sheet.hash);
   fact(kMachine, sheet.machine.empty() ? worded(kNoMachine, language) : sheet.machine);
+  if (!sheet.values.empty() || !sheet.paths.empty()) fact(kRunWith, sheet.values.empty() ? "VGPL = 0" : sheet.values);
   fact(kCycleTime, simulation::shown_time(sheet.seconds));
+  fact(kUnits, worded(kUnitsInForce, language));
   add(std::move(facts));
   if (!sheet.stop.empty()) add(Paragraph{dialect::format(kStopsThere, language, sheet.stop), true});
   if (!sheet.from_above.lines.empty())
@@ -224,9 +279,11 @@ SheetDocument document_of(const Sheet& sheet, Language language) {
   head(kTools);
   sheet.tools.empty() ? add(Paragraph{worded(kNoTools, language)}) : add(tools_table(sheet, language));
   head(kZeros);
-  sheet.frames.empty() ? add(Paragraph{worded(kNoZeros, language)}) : add(zeros_table(sheet, language));
+  sheet.frames.empty() && !sheet.machine_room ? add(Paragraph{worded(kNoZeros, language)})
+                                              : add(zeros_table(sheet, language));
   if (!sheet.bodies.empty()) {
-    head(kSetup);
+    add(Heading{sheet.first_zero ? dialect::format(kSetup, language, position(*sheet.first_zero))
+                                 : worded(kSetupInMachine, language)});
     add(setup_table(sheet, language));
   }
   head(kExpects);
@@ -234,6 +291,8 @@ SheetDocument document_of(const Sheet& sheet, Language language) {
   expects.rows.empty() ? add(Paragraph{worded(kNothing, language)}) : add(std::move(expects));
   head(kFindings);
   sheet.findings.empty() ? add(Paragraph{worded(kNoFindings, language)}) : add(findings_table(sheet, language));
+  if (sheet.findings.size() > kMaxFindings)
+    add(Paragraph{dialect::format(kMoreFindings, language, sheet.findings.size() - kMaxFindings)});
   add(Blanks{{worded(kSetUpBy, language), worded(kDate, language), worded(kCheckedBy, language)}});
   return document;
 }

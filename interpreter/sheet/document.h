@@ -22,6 +22,7 @@ struct TableColumn {
   std::string heading;
   double width = 1;  ///< In proportion to the others.
   bool is_number = false;
+  bool is_kept_whole = false;  ///< Its words are never broken.
 };
 
 struct Heading {

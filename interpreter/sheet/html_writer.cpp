@@ -25,6 +25,7 @@ th, td { padding: 0.8mm 1.5mm; text-align: left; vertical-align: middle; border-
 th { font-size: 8pt; color: #555; }
 tr { break-inside: avoid; }
 .number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
+.whole { white-space: nowrap; }
 .facts { display: grid; grid-template-columns: max-content 1fr; gap: 0.6mm 4mm; margin: 2mm 0; }
 .facts dt { color: #555; max-width: 60mm; }
 .facts dd { margin: 0; overflow-wrap: anywhere; }
@@ -35,7 +36,8 @@ figcaption { color: #555; font-size: 8pt; }
 .warning { padding: 1.5mm 2mm; border: 0.4mm solid #b42318; color: #b42318; font-weight: bold; }
 .blanks { display: flex; gap: 6mm; margin-top: 10mm; break-inside: avoid; }
 .blanks span { flex: 1; border-top: 0.2mm solid #555; padding-top: 1mm; color: #555; font-size: 8pt; }
-@media print { body { padding: 0; max-width: none; print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
+@media print { body { padding: 0; max-width: none; font-size: 8pt; line-height: 1.2; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  th, td { padding: 0.35mm 1.5mm; } h2 { margin-top: 2.5mm; } .facts { gap: 0.2mm 4mm; } .drawings { margin: 1.5mm 0; } p { margin: 1mm 0; } .blanks { margin-top: 8mm; } }
 )";
 
 std::string hex(std::uint32_t color) { return fmt::format("#{:06x}", color); }
@@ -90,7 +92,9 @@ class HtmlWriter {
     for (const std::vector<TableCell>& row : table.rows) {
       html_ += "<tr>";
       for (std::size_t i = 0; i < row.size(); ++i) {
-        html_ += table.columns[i].is_number ? "<td class=\"number\">" : "<td>";
+        html_ += table.columns[i].is_number       ? "<td class=\"number\">"
+                 : table.columns[i].is_kept_whole ? "<td class=\"whole\">"
+                                                  : "<td>";
         if (row[i].swatch)
           html_ += fmt::format("<span class=\"swatch\" style=\"background:{}\"></span>", hex(*row[i].swatch));
         if (row[i].drawing != nullptr) append_drawing(html_, *row[i].drawing);

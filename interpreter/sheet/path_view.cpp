@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,23 +11,24 @@ namespace isocnc::sheet {
 using geometry::Vec3;
 
 /// Colors that are distinct with every kind of color vision, also where they are printed in gray.
-static constexpr std::uint32_t kColors[] = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0xB8860B, 0x56B4E9, 0x000000};
+static constexpr std::uint32_t kColors[] = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0xB8860B, 0x56B4E9,
+                                            0x000000, 0x7B3F00, 0x5B4B9F, 0x7A9A01, 0xA50F15, 0x00868B};
 static constexpr std::uint32_t kRapidColor = 0x9AA0A6;
 static constexpr std::uint32_t kAxisColor = 0xC2410C;
 static constexpr std::uint32_t kNoToolColor = 0x333333;
-static constexpr double kDot = 1;     ///< The width of a plunge from above, mm of paper.
-static constexpr double kCell = 0.1;  ///< mm of paper.
-/// What is left out of fuller pictures is not seen on paper.
+static constexpr double kDot = 1;           ///< The width of a plunge from above, mm of paper.
+static constexpr double kFinestCell = 0.1;  ///< mm of paper.
 static constexpr std::size_t kMaxSegments = 60'000;
 static constexpr double kAxisLength = 4;  ///< mm of paper.
 static constexpr double kBarHeight = 6;   ///< Room for the scale, mm of paper.
 static constexpr double kDrawingMargin = 1;
-static constexpr double kMinRoom = 10;  ///< mm of the machine that fill the picture at least.
+static constexpr double kTopMargin = kAxisLength + 1;  ///< The work often begins at the zero, whose axis goes up.
+static constexpr double kMinRoom = 10;                 ///< mm of the machine that fill the picture at least.
 
 std::uint32_t color_of_tool(std::size_t place) { return kColors[place % std::size(kColors)]; }
 
 PathView::PathView(const Axes& axes, const std::array<geometry::Range, 3>& room, double max_width, double max_height)
-    : axes_(axes), room_(room) {
+    : axes_(axes), room_(room), cell_(kFinestCell) {
   for (geometry::Range& range : room_) {
     const double lacking = kMinRoom - (range.maximum - range.minimum);
     if (lacking <= 0) continue;
@@ -38,24 +40,24 @@ PathView::PathView(const Axes& axes, const std::array<geometry::Range, 3>& room,
     return range.maximum - range.minimum;
   };
   scale_ = std::min((max_width - 2 * kDrawingMargin) / size(axes.right),
-                    (max_height - 2 * kDrawingMargin - kBarHeight) / size(axes.up));
+                    (max_height - kTopMargin - kDrawingMargin - kBarHeight) / size(axes.up));
   drawing_.width = max_width;
-  drawing_.height = size(axes.up) * scale_ + 2 * kDrawingMargin + kBarHeight;
+  drawing_.height = size(axes.up) * scale_ + kTopMargin + kDrawingMargin + kBarHeight;
 }
 
 PaperPoint PathView::on_paper(const Vec3& place) const {
   const geometry::Range& right = room_[static_cast<std::size_t>(axes_.right)];
   const geometry::Range& up = room_[static_cast<std::size_t>(axes_.up)];
   return {kDrawingMargin + (place[axes_.right] - right.minimum) * scale_,
-          kDrawingMargin + (up.maximum - place[axes_.up]) * scale_};
+          kTopMargin + (up.maximum - place[axes_.up]) * scale_};
 }
 
-PathView::PaperCell PathView::cell_of(const PaperPoint& point) {
-  return {static_cast<std::int32_t>(std::lround(point.x / kCell)),
-          static_cast<std::int32_t>(std::lround(point.y / kCell))};
+PathView::PaperCell PathView::cell_of(const PaperPoint& point) const {
+  return {static_cast<std::int32_t>(std::lround(point.x / cell_)),
+          static_cast<std::int32_t>(std::lround(point.y / cell_))};
 }
 
-PaperPoint PathView::point_of(const PaperCell& cell) { return {cell.first * kCell, cell.second * kCell}; }
+PaperPoint PathView::point_of(const PaperCell& cell) const { return {cell.first * cell_, cell.second * cell_}; }
 
 void PathView::add_box(const std::array<geometry::Range, 3>& room, const PenStroke& stroke) {
   const auto corner = [&](bool is_right, bool is_up) {
@@ -74,17 +76,23 @@ void PathView::add_box(const std::array<geometry::Range, 3>& room, const PenStro
 void PathView::add(const plot::ToolpathStep& step) {
   if (step.kind == plot::StepKind::Wait) return;
   const std::size_t style = step.kind == plot::StepKind::Rapid ? 0 : step.tool + 1;
-  PaperPoint from = on_paper(step.points.front().pose.tip);
-  bool is_drawn = false;
+  const Vec3& start = step.points.front().pose.tip;
+  PaperPoint from = on_paper(start);
+  double seen = 0;  // The length of the way as one sees it.
+  double length = 0;
   for (std::size_t i = 1; i < step.points.size(); ++i) {
-    const PaperPoint to = on_paper(step.points[i].pose.tip);
-    if (cell_of(to) == cell_of(from)) continue;
-    if (const auto seen = clipped(from, to)) add_segment(style, cell_of(seen->first), cell_of(seen->second));
+    const Vec3& tip = step.points[i].pose.tip;
+    const PaperPoint to = on_paper(tip);
+    seen += std::hypot(to.x - from.x, to.y - from.y) / scale_;
+    length += (tip - step.points[i - 1].pose.tip).norm();
+    if (cell_of(to) != cell_of(from))
+      if (const auto part = clipped(from, to)) add_segment({style, cell_of(part->first), cell_of(part->second)});
     from = to;
-    is_drawn = true;
   }
   // A plunge is a point in the view from above.
-  if (!is_drawn && style != 0 && clipped(from, from)) dots_.emplace(style, cell_of(from));
+  constexpr double kAlongTheView = 1e-3;
+  if (style != 0 && length > 0 && seen < kAlongTheView * length && clipped(from, from))
+    dots_.emplace(style, cell_of(from));
 }
 
 std::optional<std::pair<PaperPoint, PaperPoint>> PathView::clipped(const PaperPoint& from, const PaperPoint& to) const {
@@ -106,22 +114,35 @@ std::optional<std::pair<PaperPoint, PaperPoint>> PathView::clipped(const PaperPo
                    PaperPoint{from.x + last * dx, from.y + last * dy});
 }
 
-void PathView::add_segment(std::size_t style, const PaperCell& from, const PaperCell& to) {
-  if (drawn_.size() >= kMaxSegments) return;
+void PathView::add_segment(const PaperSegment& segment) {
+  if (segment.from == segment.to) return;
   const auto bits = [](const PaperCell& cell) {
     return static_cast<std::uint64_t>(static_cast<std::uint16_t>(cell.first)) << 16U |
            static_cast<std::uint16_t>(cell.second);
   };
-  const PaperCell& low = std::min(from, to);
-  const PaperCell& high = std::max(from, to);
-  const std::uint64_t key =
-      (bits(low) << 32U | bits(high)) ^ (static_cast<std::uint64_t>(style) * 0x9E3779B97F4A7C15ULL);
+  const std::uint64_t low = bits(std::min(segment.from, segment.to));
+  const std::uint64_t high = bits(std::max(segment.from, segment.to));
+  const std::uint64_t key = (low << 32U | high) ^ (static_cast<std::uint64_t>(segment.style) * 0x9E3779B97F4A7C15ULL);
   if (!drawn_.insert(key).second) return;
-  std::vector<std::vector<PaperPoint>>& rows = rows_[style];
-  const auto pen = pens_.find(style);
-  if (pen == pens_.end() || pen->second != from) rows.push_back({point_of(from)});
-  rows.back().push_back(point_of(to));
-  pens_[style] = to;
+  segments_.push_back(segment);
+  if (segments_.size() > kMaxSegments) coarsen();
+}
+
+/// Cells become twice as wide.
+void PathView::coarsen() {
+  std::vector<PaperSegment> finer = std::exchange(segments_, {});
+  const std::set<std::pair<std::size_t, PaperCell>> finer_dots = std::exchange(dots_, {});
+  drawn_.clear();
+  const auto points_of = [&](const PaperCell& cell) { return point_of(cell); };
+  std::vector<std::pair<PaperPoint, PaperPoint>> lines;
+  for (const PaperSegment& each : finer) lines.emplace_back(points_of(each.from), points_of(each.to));
+  std::vector<PaperPoint> dots;
+  for (const auto& [style, cell] : finer_dots) dots.push_back(points_of(cell));
+  cell_ *= 2;
+  for (std::size_t i = 0; i < finer.size(); ++i)
+    add_segment({finer[i].style, cell_of(lines[i].first), cell_of(lines[i].second)});
+  std::size_t dot = 0;
+  for (const auto& [style, cell] : finer_dots) dots_.emplace(style, cell_of(dots[dot++]));
 }
 
 void PathView::add_origin(const Vec3& origin, std::string name) {
@@ -144,10 +165,16 @@ static double round_length(double maximum) {
 static std::uint32_t color_of_style(std::size_t style) { return style == 1 ? kNoToolColor : color_of_tool(style - 2); }
 
 Drawing PathView::finish() {
-  for (auto& [style, rows] : rows_) {
-    const PenStroke stroke = style == 0 ? PenStroke{.color = kRapidColor, .width = 0.12, .is_dashed = true}
-                                        : PenStroke{.color = color_of_style(style), .width = 0.25};
-    for (std::vector<PaperPoint>& row : rows) drawing_.lines.push_back({stroke, std::move(row)});
+  std::stable_sort(segments_.begin(), segments_.end(),
+                   [](const PaperSegment& a, const PaperSegment& b) { return a.style < b.style; });
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const PaperSegment& segment = segments_[i];
+    const bool goes_on = i > 0 && segments_[i - 1].style == segment.style && segments_[i - 1].to == segment.from;
+    if (!goes_on)
+      drawing_.lines.push_back({segment.style == 0 ? PenStroke{.color = kRapidColor, .width = 0.12, .is_dashed = true}
+                                                   : PenStroke{.color = color_of_style(segment.style), .width = 0.25},
+                                {point_of(segment.from)}});
+    drawing_.lines.back().points.push_back(point_of(segment.to));
   }
   for (const auto& [style, cell] : dots_)
     drawing_.lines.push_back({{.color = color_of_style(style), .width = kDot}, {point_of(cell)}});

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,7 +19,8 @@ namespace isocnc::sheet {
 std::uint32_t color_of_tool(std::size_t place);
 
 /// A view of a path along an axis of the machine, drawn to scale within a width and a height. What falls on the same
-/// tenths of a millimeter of paper is drawn once, so that the drawing is small however long the program is.
+/// tenths of a millimeter of paper is drawn once, and a drawing that is still too full becomes coarser, so that it is
+/// small and whole however long the program is.
 class PathView {
  public:
   struct Axes {
@@ -40,24 +40,31 @@ class PathView {
   Drawing finish();
 
  private:
-  using PaperCell = std::pair<std::int32_t, std::int32_t>;  ///< Tenths of a millimeter of paper.
+  using PaperCell = std::pair<std::int32_t, std::int32_t>;  ///< Column and row.
+  /// A line from cell to cell.
+  struct PaperSegment {
+    std::size_t style = 0;  ///< 0: rapids; else one more than the place of the tool in Toolpath::tools().
+    PaperCell from;
+    PaperCell to;
+  };
 
   PaperPoint on_paper(const geometry::Vec3& place) const;
-  static PaperCell cell_of(const PaperPoint& point);
-  static PaperPoint point_of(const PaperCell& cell);
+  PaperCell cell_of(const PaperPoint& point) const;
+  PaperPoint point_of(const PaperCell& cell) const;
   /// The part of a line that lies in the drawing; none if it lies outside.
   std::optional<std::pair<PaperPoint, PaperPoint>> clipped(const PaperPoint& from, const PaperPoint& to) const;
-  void add_segment(std::size_t style, const PaperCell& from, const PaperCell& to);
+  void add_segment(const PaperSegment& segment);
+  void coarsen();
 
   Axes axes_;
   std::array<geometry::Range, 3> room_;
   double scale_ = 1;  ///< mm of paper for a mm.
   Drawing drawing_;
   Drawing origins_;
-  std::map<std::size_t, std::vector<std::vector<PaperPoint>>> rows_;  ///< By style: rapids first, then by tool.
-  std::map<std::size_t, PaperCell> pens_;                             ///< Where the last row of each ends.
-  std::set<std::pair<std::size_t, PaperCell>> dots_;                  ///< By style.
+  double cell_;                         ///< mm of paper.
+  std::vector<PaperSegment> segments_;  ///< Each once.
   std::unordered_set<std::uint64_t> drawn_;
+  std::set<std::pair<std::size_t, PaperCell>> dots_;  ///< By style.
 };
 
 }  // namespace isocnc::sheet

@@ -70,7 +70,7 @@ class PdfWriter {
   }
 
   void operator()(const Heading& heading) {
-    make_room(16);  // With the first rows of what follows.
+    make_room(30);  // With the first rows of what follows.
     y_ += 3.5;
     page().write({kPageMargin, y_ + points(10)}, encoded(heading.text), PdfFont::Bold, points(10));
     y_ += points(10) * kLineHeight + 0.8;
@@ -83,10 +83,13 @@ class PdfWriter {
     for (const auto& [name, value] : facts.rows) {
       const auto left = wrapped(encoded(name), PdfFont::Regular, kType, names);
       const auto right = wrapped(encoded(value), PdfFont::Regular, kType, width_ - names - 4);
-      make_room(static_cast<double>(std::max(left.size(), right.size())) * kType * kLineHeight);
-      const double height =
-          std::max(write_lines(left, kPageMargin, kGray), write_lines(right, kPageMargin + names + 4, 0));
-      y_ += height + 0.4;
+      for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
+        make_room(kType * kLineHeight);
+        if (i < left.size()) page().write({kPageMargin, y_ + kType}, left[i], PdfFont::Regular, kType, kGray);
+        if (i < right.size()) page().write({kPageMargin + names + 4, y_ + kType}, right[i], PdfFont::Regular, kType);
+        y_ += kType * kLineHeight;
+      }
+      y_ += 0.4;
     }
     y_ += 1;
   }
@@ -172,14 +175,6 @@ class PdfWriter {
   void rule(double width, std::uint32_t color) {
     page().draw({{.color = color, .width = width}, {{kPageMargin, y_}, {kPageMargin + width_, y_}}});
   }
-  double write_lines(const std::vector<std::string>& lines, double left, std::uint32_t color) {
-    double y = y_;
-    for (const std::string& line : lines) {
-      page().write({left, y + kType}, line, PdfFont::Regular, kType, color);
-      y += kType * kLineHeight;
-    }
-    return y - y_;
-  }
   static double widths_of(const Drawings& drawings) {
     double sum = 0;
     for (const auto& [drawing, caption] : drawings.each) sum += drawing->width;
@@ -203,17 +198,28 @@ class PdfWriter {
 
   void write_row(const Table& table, const std::vector<TableCell>& row) {
     std::vector<std::vector<std::string>> texts;
-    double height = 0;
+    std::size_t lines = 1;
+    double drawing = 0;
     for (std::size_t i = 0; i < row.size(); ++i) {
       const double swatch = row[i].swatch ? kSwatch + 1.4 : 0;
       texts.push_back(
           wrapped(encoded(row[i].text), PdfFont::Regular, kType, columns_[i].width - 2 * kPadding - swatch));
-      height = std::max(height, static_cast<double>(texts.back().size()) * kType * kLineHeight);
-      if (row[i].drawing != nullptr) height = std::max(height, row[i].drawing->height);
+      lines = std::max(lines, texts.back().size());
+      if (row[i].drawing != nullptr) drawing = std::max(drawing, row[i].drawing->height);
     }
-    if (make_room(height + 2 * kRowGap)) write_head(table);
-    for (std::size_t i = 0; i < row.size(); ++i) write_cell(row[i], texts[i], columns_[i], height);
-    y_ += height + 2 * kRowGap;
+    // A row that no page holds goes on on the next one.
+    const auto most = static_cast<std::size_t>((bottom_ - kPageMargin - 12) / (kType * kLineHeight));
+    for (std::size_t first = 0; first < lines; first += most) {
+      const std::size_t count = std::min(most, lines - first);
+      const double height = std::max(static_cast<double>(count) * kType * kLineHeight, first == 0 ? drawing : 0);
+      if (make_room(height + 2 * kRowGap)) write_head(table);
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        const auto begin = texts[i].begin() + static_cast<std::ptrdiff_t>(std::min(first, texts[i].size()));
+        const auto end = texts[i].begin() + static_cast<std::ptrdiff_t>(std::min(first + count, texts[i].size()));
+        write_cell(first == 0 ? row[i] : TableCell{}, {begin, end}, columns_[i], height);
+      }
+      y_ += height + 2 * kRowGap;
+    }
     rule(0.15, kRule);
   }
 

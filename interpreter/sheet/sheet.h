@@ -25,12 +25,13 @@ struct SheetTool {
   std::string name;              ///< In the configuration; empty if it is not there.
   std::optional<double> length;  ///< From the spindle nose to the tip.
   std::optional<double> radius;
-  geometry::Range speed;          ///< Revolutions per minute while it cuts; 0 to 0: it stands.
-  bool turns_left = false;        ///< M04.
+  geometry::Range speed;          ///< Revolutions per minute while it cuts under M03; 0 to 0: never.
+  geometry::Range left_speed;     ///< The same under M04.
   geometry::Range feed;           ///< Of feed moves, mm/min; 0 to 0: none.
   std::optional<double> least_z;  ///< Of the tip in feed moves, in the workpiece frame that is in force; none without.
   double seconds = 0;             ///< With its tool changes.
   std::size_t uses = 0;           ///< How many operations begin with its M06.
+  std::string values;             ///< The values of VGPL that lead to it, where the first run does not; else empty.
   Drawing picture;                ///< Its outline; empty where nothing is known of its shape.
 };
 
@@ -39,13 +40,15 @@ struct SheetFunction {
   int number = 0;
   std::string name;  ///< In the configuration; may be empty.
   std::size_t calls = 0;
+  std::string values;  ///< As of SheetTool.
 };
 
 /// A body of the setup, as a box along the axes.
 struct SheetBody {
   std::string name;
   verification::BodyRole role = verification::BodyRole::Fixture;
-  std::array<geometry::Range, 3> room;  ///< In the first workpiece frame, mm.
+  bool is_endless = false;              ///< It has no ends but for its top.
+  std::array<geometry::Range, 3> room;  ///< In the first workpiece frame, or the machine's without one, mm.
 };
 
 /// A path on which values of VGPL lead the program.
@@ -71,7 +74,12 @@ struct Sheet {
   std::string machine;  ///< The file that describes it; empty for none.
   double seconds = 0;   ///< Cycle time with the tool that is mounted first.
   std::string stop;     ///< The error that ends the run before its end, and its line; empty for none.
+  std::string values;   ///< What the run begins with: `VGPL = 2, V3 = 7`; empty where that is 0.
+  std::optional<geometry::Vec3> first_zero;  ///< Of the first workpiece frame, in the machine frame; none without one.
   std::vector<simulation::FrameExtents> frames;  ///< With the room that the tip takes in each.
+  std::size_t frames_left_out = 0;
+  /// The room of the tip before any frame is set, machine frame; none without a feed move there.
+  std::optional<std::array<geometry::Range, 3>> machine_room;
   std::vector<SheetTool> tools;
   std::vector<SheetFunction> functions;  ///< By their numbers.
   std::vector<SheetBody> bodies;
@@ -80,6 +88,7 @@ struct Sheet {
   // What others find out.
   std::vector<int> registers;          ///< Those that an IF compares though the program does not set them.
   std::vector<SheetPath> paths;        ///< Empty where no IF compares VGPL.
+  bool has_other_paths = false;        ///< Other values of VGPL may lead elsewhere.
   std::vector<SheetFinding> findings;  ///< In the order of the program.
 };
 
@@ -97,9 +106,9 @@ struct SheetSubject {
 /// Runs the program twice, for the facts and for the pictures, and returns what the runs say.
 Sheet survey(const SheetSubject& subject);
 
-/// How long the program runs with these options, and the error that ends it before its end; as in SheetPath.
-std::pair<double, std::string> time_of(std::string_view text, const running::RunOptions& options,
-                                       const simulation::TimedMachine& machine, dialect::Language language);
+/// Runs the program once more, with other values of VGPL in `subject`, which `values` says as conditions. Adds the path
+/// to the sheet, and the tools and functions of that run; what the tools do there widens their ranges.
+void add_path(Sheet& sheet, const SheetSubject& subject, const std::string& values);
 
 /// The sheet as a page for browsers, in one file, which is printed on A4 or Letter.
 std::string html_of(const Sheet& sheet, dialect::Language language);

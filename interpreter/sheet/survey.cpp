@@ -25,6 +25,8 @@ using Room = std::array<Range, 3>;
 namespace {
 
 constexpr Text kStops{"{} on line {}: {}", "{} alla riga {}: {}"};
+constexpr Text kUntil{"the run ends before line {}, as asked",
+                      "l'esecuzione finisce prima della riga {}, come richiesto"};
 
 /// Sizes of pictures, mm of paper.
 constexpr double kAboveWidth = 100;
@@ -56,9 +58,11 @@ class FactCollector {
   Sheet finish() {
     sheet_.seconds = seconds_;
     sheet_.frames = frames_.frames();
+    sheet_.frames_left_out = frames_.left_out();
+    if (cuts_in_machine_) sheet_.machine_room = machine_room_;
     for (const auto& [number, calls] : calls_) {
       const configuration::NamedFunction* const known = subject_.machine.find_function(number);
-      sheet_.functions.push_back({number, known ? known->name : "", calls});
+      sheet_.functions.push_back({number, known ? known->name : "", calls, ""});
     }
     return std::move(sheet_);
   }
@@ -71,6 +75,7 @@ class FactCollector {
   /// What is known while it grows.
   struct Seen {
     bool has_speed = false;
+    bool has_left_speed = false;
     bool has_feed = false;
   };
 
@@ -83,6 +88,7 @@ class FactCollector {
   void add(const running::FrameEvent& frame, const simulation::TimedEvent& timed) {
     frames_.take(frame, timed.event.line);
     origin_ = frame.workpiece_origin;
+    has_frame_ = true;
   }
   void add(const running::ToolEvent& event, const simulation::TimedEvent&) {
     const auto known = std::find_if(sheet_.tools.begin(), sheet_.tools.end(),
@@ -103,6 +109,11 @@ class FactCollector {
       if (!*room) *room = extents;
       for (std::size_t axis = 0; axis < extents.size(); ++axis) (**room)[axis].include(extents[axis]);
     }
+    if (!has_frame_) {
+      if (!machine_room_) machine_room_ = extents;
+      for (std::size_t axis = 0; axis < extents.size(); ++axis) (*machine_room_)[axis].include(extents[axis]);
+      cuts_in_machine_ = cuts_in_machine_ || !is_rapid;
+    }
     if (!is_rapid && tool_ != kNone) add_cut(running::feed_of(event), extents[2].minimum - origin_.z());
   }
 
@@ -110,8 +121,8 @@ class FactCollector {
     SheetTool& tool = sheet_.tools[tool_];
     Seen& seen = seen_[tool_];
     include(tool.feed, seen.has_feed, feed);
-    if (spindle_.function != 5) include(tool.speed, seen.has_speed, spindle_.speed);
-    tool.turns_left = tool.turns_left || spindle_.function == 4;
+    if (spindle_.function == 3) include(tool.speed, seen.has_speed, spindle_.speed);
+    if (spindle_.function == 4) include(tool.left_speed, seen.has_left_speed, spindle_.speed);
     tool.least_z = std::min(tool.least_z.value_or(z), z);
   }
 
@@ -145,6 +156,9 @@ class FactCollector {
   std::map<int, std::size_t> calls_;
   std::optional<Room> moved_;
   std::optional<Room> cut_;
+  bool has_frame_ = false;
+  std::optional<Room> machine_room_;
+  bool cuts_in_machine_ = false;
 };
 
 Room shifted(Room room, const Vec3& by) {
@@ -165,18 +179,19 @@ Room room_of(const verification::BodyShape& shape) {
   return room;
 }
 
-/// The bodies of the setup that have ends, in the first workpiece frame.
+/// The bodies of the setup, in the first workpiece frame.
 std::vector<SheetBody> bodies_of(const verification::Scene& scene, const Vec3& origin) {
   std::vector<SheetBody> bodies;
   for (const verification::SceneBody& body : scene.setup) {
-    if (body.is_endless) continue;
     const Room room = room_of(body.shape);
-    bodies.push_back({body.name, body.role, scene.is_in_workpiece_frame ? room : shifted(room, -origin)});
+    bodies.push_back(
+        {body.name, body.role, body.is_endless, scene.is_in_workpiece_frame ? room : shifted(room, -origin)});
   }
   return bodies;
 }
 
 std::string stop_of(const running::RunResult& result, Language language) {
+  if (result.ending == running::Ending::Until) return dialect::format(kUntil, language, result.line + 1);
   if (result.ending != running::Ending::Error) return "";
   return dialect::format(kStops, language, dialect::definition(result.error.id).code, result.line + 1,
                          running::error_message(result, language));
@@ -197,6 +212,24 @@ std::optional<PenStroke> stroke_of(verification::BodyRole role) {
   return std::nullopt;
 }
 
+/// Where the zeros of the workpiece are, each with its numbers in the table.
+std::vector<std::pair<Vec3, std::string>> numbered_zeros(const Sheet& sheet) {
+  std::vector<std::pair<Vec3, std::string>> zeros;
+  std::size_t number = 0;
+  for (const simulation::FrameExtents& frame : sheet.frames) {
+    if (frame.is_face) continue;
+    const std::string name = fmt::format("{}", ++number);
+    const auto same =
+        std::find_if(zeros.begin(), zeros.end(), [&](const auto& zero) { return zero.first == frame.frame.origin; });
+    if (same == zeros.end()) {
+      zeros.emplace_back(frame.frame.origin, name);
+    } else if (same->second.size() < 12) {
+      same->second += ", " + name;
+    }
+  }
+  return zeros;
+}
+
 /// What lies below the blank is seen through it.
 PenStroke seen_from_above(const SheetBody& body, const SheetBody* blank) {
   PenStroke stroke = *stroke_of(body.role);
@@ -207,13 +240,18 @@ PenStroke seen_from_above(const SheetBody& body, const SheetBody* blank) {
   return stroke;
 }
 
-void draw(const SheetSubject& subject, const Room& cut, const Vec3& origin, Sheet& sheet) {
-  Room room = cut;
-  for (const SheetBody& body : sheet.bodies) {
+/// What the pictures show, machine frame: what is cut, blank and fixtures; none if there is nothing.
+std::optional<Room> shown_room(std::optional<Room> room, const std::vector<SheetBody>& bodies, const Vec3& origin) {
+  for (const SheetBody& body : bodies) {
     if (!stroke_of(body.role)) continue;
     const Room there = shifted(body.room, origin);
-    for (std::size_t axis = 0; axis < room.size(); ++axis) room[axis].include(there[axis]);
+    if (!room) room = there;
+    for (std::size_t axis = 0; axis < there.size(); ++axis) (*room)[axis].include(there[axis]);
   }
+  return room;
+}
+
+void draw(const SheetSubject& subject, Room room, const Vec3& origin, Sheet& sheet) {
   for (std::size_t axis = 0; axis < room.size(); ++axis) {
     const double zero = origin[static_cast<Eigen::Index>(axis)];
     room[axis].include({zero, zero});
@@ -230,9 +268,7 @@ void draw(const SheetSubject& subject, const Room& cut, const Vec3& origin, Shee
       for (const SheetBody& body : sheet.bodies)
         if (body.role == role)
           view->add_box(shifted(body.room, origin), view == &above ? seen_from_above(body, blank) : *stroke_of(role));
-    std::size_t number = 0;
-    for (const simulation::FrameExtents& frame : sheet.frames)
-      if (!frame.is_face) view->add_origin(frame.frame.origin, fmt::format("{}", ++number));
+    for (const auto& [place, names] : numbered_zeros(sheet)) view->add_origin(place, names);
   }
   plot::Toolpath path(subject.machine.timed, subject.machine.setup.home, [&](const plot::ToolpathStep& step) {
     above.add(step);
@@ -248,11 +284,29 @@ void draw(const SheetSubject& subject, const Room& cut, const Vec3& origin, Shee
 
 }  // namespace
 
+static std::string values_of(const running::RunOptions& run) {
+  std::string values;
+  const auto add = [&](const std::string& name, double value) {
+    if (value != 0) values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", name, value);
+  };
+  add("VGPL", run.vgpl);
+  for (std::size_t i = 1; i < run.registers.size(); ++i) add(fmt::format("V{}", i), run.registers[i]);
+  return values;
+}
+
 Sheet survey(const SheetSubject& subject) {
   FactCollector facts(subject);
+  std::optional<Vec3> first_zero;
   const running::RunResult result =
       simulation::run_timed(subject.text, subject.run, subject.machine.timed,
-                            {.event = [&](const simulation::TimedEvent& timed) { facts.take(timed); }, .stretch = {}});
+                            {.event =
+                                 [&](const simulation::TimedEvent& timed) {
+                                   facts.take(timed);
+                                   const auto* const frame = std::get_if<running::FrameEvent>(&timed.event.what);
+                                   if (frame != nullptr && !frame->face_mounted && !first_zero)
+                                     first_zero = frame->workpiece_origin;
+                                 },
+                             .stretch = {}});
   const std::optional<Room> room = facts.room();
   Sheet sheet = facts.finish();
   sheet.program = subject.name;
@@ -261,23 +315,52 @@ Sheet survey(const SheetSubject& subject) {
                 (subject.text.empty() || subject.text.back() == '\n' ? 0 : 1);
   sheet.machine = subject.machine.file.generic_string();
   sheet.stop = stop_of(result, subject.language);
+  sheet.values = values_of(subject.run);
+  sheet.first_zero = first_zero;
   const Vec3 origin = verification::first_workpiece_origin(subject.text, subject.run);
   if (subject.scene != nullptr) sheet.bodies = bodies_of(*subject.scene, origin);
-  if (room) draw(subject, *room, origin, sheet);
+  if (const std::optional<Room> shown = shown_room(room, sheet.bodies, origin)) draw(subject, *shown, origin, sheet);
   return sheet;
 }
 
-std::pair<double, std::string> time_of(std::string_view text, const running::RunOptions& options,
-                                       const simulation::TimedMachine& machine, Language language) {
-  double seconds = 0;
+/// Widens a range, where 0 to 0 is none.
+static void widen(Range& range, const Range& other) {
+  if (other.maximum <= 0) return;
+  if (range.maximum <= 0) range = other;
+  range.include(other);
+}
+
+void add_path(Sheet& sheet, const SheetSubject& subject, const std::string& values) {
+  FactCollector facts(subject);
   const running::RunResult result =
-      simulation::run_timed(text, options, machine,
-                            {.event =
-                                 [&](const simulation::TimedEvent& timed) {
-                                   seconds = std::max(seconds, timed.start + timed.duration + timed.wait);
-                                 },
-                             .stretch = {}});
-  return {seconds, stop_of(result, language)};
+      simulation::run_timed(subject.text, subject.run, subject.machine.timed,
+                            {.event = [&](const simulation::TimedEvent& timed) { facts.take(timed); }, .stretch = {}});
+  Sheet path = facts.finish();
+  sheet.paths.push_back({values, path.seconds, stop_of(result, subject.language)});
+  for (SheetTool& tool : path.tools) {
+    const auto known = std::find_if(sheet.tools.begin(), sheet.tools.end(),
+                                    [&](const SheetTool& each) { return each.code == tool.code; });
+    if (known == sheet.tools.end()) {
+      tool.values = values;
+      sheet.tools.push_back(std::move(tool));
+      continue;
+    }
+    widen(known->speed, tool.speed);
+    widen(known->left_speed, tool.left_speed);
+    widen(known->feed, tool.feed);
+    if (tool.least_z) known->least_z = std::min(known->least_z.value_or(*tool.least_z), *tool.least_z);
+    if (!known->values.empty() && values != known->values) known->values += ", " + values;
+  }
+  for (SheetFunction& function : path.functions) {
+    const auto known = std::find_if(sheet.functions.begin(), sheet.functions.end(),
+                                    [&](const SheetFunction& each) { return each.number == function.number; });
+    if (known == sheet.functions.end()) {
+      function.values = values;
+      sheet.functions.push_back(std::move(function));
+    } else if (!known->values.empty()) {
+      known->values += ", " + values;
+    }
+  }
 }
 
 }  // namespace isocnc::sheet

@@ -46,9 +46,10 @@ TEST(Survey, KnowsToolsFunctionsAndZeros) {
   EXPECT_EQ(mill.length, 90);
   EXPECT_EQ(mill.radius, 10);
   EXPECT_EQ(mill.uses, 2U);
-  EXPECT_EQ(mill.speed.minimum, 9000);
+  EXPECT_EQ(mill.speed.minimum, 12000);
   EXPECT_EQ(mill.speed.maximum, 12000);
-  EXPECT_TRUE(mill.turns_left);
+  EXPECT_EQ(mill.left_speed.minimum, 9000);
+  EXPECT_EQ(mill.left_speed.maximum, 9000);
   EXPECT_EQ(mill.feed.minimum, 300);
   EXPECT_EQ(mill.feed.maximum, 1200);
   EXPECT_NEAR(mill.least_z.value(), -3, 1e-9);
@@ -101,7 +102,9 @@ TEST(Survey, HasTheSetupInTheFirstWorkpieceFrame) {
   for (const bool is_in_workpiece_frame : {true, false}) {
     scene.is_in_workpiece_frame = is_in_workpiece_frame;
     const Sheet sheet = sheet_of(kPart, {}, &scene);
-    ASSERT_EQ(sheet.bodies.size(), 2U);
+    ASSERT_EQ(sheet.bodies.size(), 3U);
+    EXPECT_TRUE(sheet.bodies[2].is_endless);
+    EXPECT_EQ(sheet.first_zero, geometry::Vec3(100, 50, 10));
     EXPECT_EQ(sheet.bodies[0].room[0].minimum, is_in_workpiece_frame ? 0 : -100);
     EXPECT_EQ(sheet.bodies[1].room[2].maximum, is_in_workpiece_frame ? -20 : -30);
   }
@@ -144,12 +147,66 @@ TEST(Survey, ShowsAPlungeFromAboveAsADot) {
   EXPECT_EQ(dots, 2);
 }
 
-TEST(TimeOf, IsThatOfThePath) {
-  constexpr std::string_view kForked = "M06 T101001\nIF VGPL = 1 GOTO N5\nG04 P20\nN5 G04 P1\nM02\n";
-  running::RunOptions options;
-  EXPECT_NEAR(time_of(kForked, options, {}, Language::English).first, 29, 1e-9);
-  options.vgpl = 1;
-  EXPECT_NEAR(time_of(kForked, options, {}, Language::English).first, 9, 1e-9);
+/// What another value of VGPL leads to is on the sheet, too, and what it needs.
+TEST(AddPath, AddsToolsFunctionsAndRanges) {
+  constexpr std::string_view kForked =
+      "M06 T101001\nG00 X0 Y0 Z5\nG01 Z-1 F500\nIF VGPL <> 1 GOTO N5\nZ-9 F900\nM100\nM06 T101002\nG04 P20\nN5 M02\n";
+  Sheet sheet = sheet_of(kForked);
+  ASSERT_EQ(sheet.tools.size(), 1U);
+  const configuration::MachineConfiguration machine;
+  running::RunOptions run;
+  add_path(sheet, {.text = kForked, .name = "", .bytes = kForked, .run = run, .machine = machine}, "VGPL <> 1");
+  run.vgpl = 1;
+  add_path(sheet, {.text = kForked, .name = "", .bytes = kForked, .run = run, .machine = machine}, "VGPL = 1");
+  ASSERT_EQ(sheet.paths.size(), 2U);
+  EXPECT_NEAR(sheet.paths[0].seconds, sheet.seconds, 1e-9);
+  EXPECT_GT(sheet.paths[1].seconds, sheet.seconds + 28);
+  ASSERT_EQ(sheet.tools.size(), 2U);
+  EXPECT_EQ(sheet.tools[0].values, "");
+  EXPECT_NEAR(sheet.tools[0].least_z.value(), -9, 1e-9);
+  EXPECT_EQ(sheet.tools[0].feed.maximum, 900);
+  EXPECT_EQ(sheet.tools[0].uses, 1U);
+  EXPECT_EQ(sheet.tools[1].values, "VGPL = 1");
+  ASSERT_EQ(sheet.functions.size(), 1U);
+  EXPECT_EQ(sheet.functions[0].values, "VGPL = 1");
+  EXPECT_THAT(html_of(sheet, Language::English), HasSubstr("T101002 (only with VGPL = 1)"));
+}
+
+/// A surface in rows: none of them is left out, though the picture takes more lines than it may have.
+TEST(Survey, DrawsAllOfAFullPicture) {
+  std::string text = "M06 T101001\nG00 X0 Y0 Z0\nF5000\n";
+  for (int row = 0; row < 250; ++row)
+    for (int i = 1; i <= 400; ++i)
+      text += fmt::format("G01 X{} Y{} Z{}\n", row % 2 == 0 ? 2 * i : 800 - 2 * i, 2 * row, (i * 37 + row * 11) % 7);
+  text += "M06 T101002\nG01 X0 Y0\nX800\nY498\nX0\nY0\nM02\n";
+  const Sheet sheet = sheet_of(text);
+  std::vector<bool> rows(85);
+  bool has_contour = false;
+  for (const DrawnLine& line : sheet.from_above.lines) {
+    for (const PaperPoint& point : line.points) rows[static_cast<std::size_t>(std::clamp(point.y, 0.0, 84.0))] = true;
+    has_contour = has_contour || line.stroke.color == 0xD55E00;
+  }
+  EXPECT_TRUE(has_contour) << "of the second tool";
+  EXPECT_GT(std::count(rows.begin(), rows.end(), true), sheet.from_above.height - 14);
+}
+
+TEST(Survey, ShowsShortMovesAsLines) {
+  std::string text = "M06 T101001\nG00 X0 Y0 Z0\nG91\nF500\n";
+  for (int i = 0; i < 500; ++i) text += "G01 X0.02 Y0.01\n";
+  text += "G90\nG00 X200 Y200\nM02\n";
+  for (const DrawnLine& line : sheet_of(text + "").from_above.lines) EXPECT_GT(line.points.size(), 1U);
+}
+
+TEST(Survey, SaysWithWhatItRunsAndWhereItStopsAsAsked) {
+  running::RunOptions run;
+  run.vgpl = 2;
+  run.registers[3] = 7;
+  run.until = 2;
+  const configuration::MachineConfiguration machine;
+  const Sheet sheet =
+      survey({.text = "M06 T101001\nG04 P5\nG04 P9\nM02\n", .name = "", .bytes = "", .run = run, .machine = machine});
+  EXPECT_EQ(sheet.values, "VGPL = 2, V3 = 7");
+  EXPECT_EQ(sheet.stop, "the run ends before line 3, as asked");
 }
 
 TEST(SheetAsHtml, NeverTakesANameForMarkup) {
@@ -228,8 +285,8 @@ TEST(SheetAsPdf, SaysWhatTheHtmlSays) {
   const ReadPdf pdf(pdf_of(sheet, Language::English));
   ASSERT_EQ(pdf.pages.size(), 1U);
   for (const char* const text :
-       {"\xF9tile (1) \\ ?.iso", "T101001", "T101002", "9000 \x85\n12000 M04\n", "300 \x85 1200", "-3", "X100 Y50 Z10",
-        "M100 (2\xD7), M101 (1\xD7)", "V3, V7", "VGPL <> 1", "20.0 s; ISO028 on line 4: x", "page 1 of 1", "Set up by"})
+       {"\xF9tile (1) \\ ?.iso", "T101001", "T101002", "12000; 9000\nM04\n", "300 \x85 1200", "-3", "X100 Y50 Z10",
+        "M100\n", "2\xD7\n", "V3, V7", "VGPL <> 1", "20.0 s; ISO028 on line 4: x", "page 1 of 1", "Set up by"})
     EXPECT_TRUE(pdf.has(text)) << text << "\n" << pdf.pages[0];
   EXPECT_TRUE(pdf.has(sheet.hash));
 }
