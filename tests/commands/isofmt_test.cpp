@@ -97,7 +97,10 @@ TEST(Isofmt, RefusesTransformationsThatAreNone) {
       {{"--scale-feed", "0"}, "--scale-feed takes a factor"},
       {{"--scale-feed", "-1"}, "--scale-feed takes a factor"},
       {{"--scale-feed", "0.5", "--renumber", "10:10"}, "change nothing else"},
-      {{"--shift", "1,2", "--mirror", "X", "--about", "1"}, "one of --mirror, --rotate and --shift"},
+      {{"--shift", "1,2", "--mirror", "X", "--about", "1"}, "one of --mirror, --rotate, --shift and --repeat"},
+      {{"--repeat", "3,2,120"}, "--repeat takes columns and rows"},
+      {{"--repeat", "1,1,5,5"}, "--repeat takes columns and rows"},
+      {{"--repeat", "100,11,5,5"}, "up to 1000 in all"},
   };
   for (const auto& [options, message] : wrong) {
     std::vector<std::string> command = options;

@@ -144,13 +144,11 @@ class GitShows : public IsodiffWithGit {
   const std::string new_ =
       "-new one.iso (new)\n"
       "T101001\n"
-      "  new line 1: added: T101001\n"
-      "  new line 2: added: S12000 M03\n"
-      "  new lines 3-7: added: 5 motions\n";
+      "  new lines 1-7: added: operation of T101001, 5 motions\n";
   const std::string gone_ =
-      "differences\n\ngone.iso (deleted)\n"
+      "1 difference\n\ngone.iso (deleted)\n"
       "T101001\n"
-      "  old line 1: removed: T101001\n";
+      "  old lines 1-7: removed: operation of T101001, 3 motions\n";
   const std::string mode_ = "\nmode.iso (mode 100644 -> 100755)\n" + kNone;
   const std::string moved_ = "T101001\n  lines 5-7: moved by X1\n";
   const std::string renamed_ = "\np ü/like this.iso -> p ü/größer.iso\n" + moved_;

@@ -296,7 +296,7 @@ TEST(SheetAsPdf, GoesOnOnFurtherPagesWithTheHeadOfTheTable) {
   for (std::size_t i = 0; i < 200; ++i)
     sheet.findings.push_back({i, dialect::Severity::Warning, "W102", fmt::format("finding number {}", i)});
   const ReadPdf pdf(pdf_of(sheet, Language::English));
-  ASSERT_GT(pdf.pages.size(), 3U);
+  ASSERT_GT(pdf.pages.size(), 2U);
   std::size_t count = 0;
   for (std::size_t page = 0; page < pdf.pages.size(); ++page) {
     EXPECT_THAT(pdf.pages[page], HasSubstr(fmt::format("page {} of {}\n", page + 1, pdf.pages.size())));
@@ -305,7 +305,8 @@ TEST(SheetAsPdf, GoesOnOnFurtherPagesWithTheHeadOfTheTable) {
     }
     for (std::size_t at = 0; (at = pdf.pages[page].find("finding number", at)) != std::string::npos; ++at) ++count;
   }
-  EXPECT_EQ(count, 200U);
+  EXPECT_EQ(count, 100U);
+  EXPECT_TRUE(pdf.has("100 more: isolint shows all of them."));
 }
 
 /// What is a little longer than a page becomes smaller.
