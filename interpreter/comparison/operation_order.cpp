@@ -301,23 +301,38 @@ class OperationSorter {
     return change;
   }
 
+  /// How many actions of two operations that belong together are on the way there: up to the first motion that both
+  /// make in the same way. None if there is no such motion, since then the places differ for another reason.
+  std::size_t way_there(const ComparedOperation& left, const ComparedOperation& right) const {
+    for (std::size_t i = left.begin, k = right.begin; i < left.end && k < right.end; ++i, ++k) {
+      const MachineAction& one = runs_.a.actions[i];
+      const MachineAction& other = runs_.b.actions[k];
+      if (one.is_motion() != other.is_motion()) return 0;
+      if (!one.is_motion()) continue;
+      if (is_same_alone(runs_, options_, one, other)) return i - left.begin;
+      if (!goes_along(one, other)) return 0;
+    }
+    return 0;
+  }
+
   /// The rapids at the begin of two operations that belong together lead there from where the order has it. Those of
   /// the second one stand at `place`.
   void same_way_there(const ComparedOperation& left, const ComparedOperation& right, OrderedRuns& ordered,
                       std::size_t place) const {
+    const std::size_t count = way_there(left, right);
     bool is_first = true;
     for (std::size_t i = left.begin, k = right.begin; i < left.end && k < right.end; ++i, ++k, ++place) {
-      const MachineAction& one = runs_.a.actions[i];
-      const MachineAction& other = runs_.b.actions[k];
-      if (one.is_motion() != other.is_motion()) return;
-      if (!one.is_motion()) continue;
-      if (one.arc != MachineAction::kNone || other.arc != MachineAction::kNone) return;
+      if (runs_.a.actions[i].is_motion() != runs_.b.actions[k].is_motion()) return;
+      if (!runs_.a.actions[i].is_motion()) continue;
       const MachineAction& there = ordered.a.actions[ordered.a.actions.size() - (left.end - i)];
-      const bool is_along = goes_along(one, other);
-      if (is_first || is_along) ordered.b.actions[place].from = there.from;
+      MachineAction& here = ordered.b.actions[place];
+      if (there.arc != MachineAction::kNone || here.arc != MachineAction::kNone) return;
+      const bool is_on_the_way = i - left.begin < count;
+      // The first motion that is the same comes from there, too.
+      if (is_first || i - left.begin <= count) here.from = there.from;
+      if (is_on_the_way) here.to = there.to;
       is_first = false;
-      if (!is_along) return;
-      ordered.b.actions[place].to = there.to;
+      if (!is_on_the_way) return;
     }
   }
 

@@ -202,6 +202,11 @@ const ComparisonCase kCases[] = {
      "added -|1-9: added: operation of T101001, 6 motions\nadded -|10-18: added: operation of T101002, 6 motions\n"},
     {"FirstOperationLostWithALineBefore", "M100\n" + operations("12"), operations("2"),
      "function 1|-: removed: M100\nremoved 2-10|-: removed: operation of T101001, 6 motions\n"},
+    // Where nothing brings B back, the second operation is another one.
+    {"OperationsSwappedWithAnotherTilt", "M06 T101001\nG00 X10 B10\nX20\nM06 T101002\nG00 X50\nX60\nM02\n",
+     "M06 T101002\nG00 X50\nX60\nM06 T101001\nG00 X10 B10\nX20\nM02\n",
+     "reordered 4-6|1-3: order changed: now the first one, was after T101001\n"
+     "moved 5-6|2-3: B or C turned by up to 10 degrees\n"},
     {"ToolsSwapped", operations("12"), replaced(replaced(operations("12"), "T101001", "T101003"), "T101002", "T101001"),
      "tool 1|1: T101003 instead of T101001\ntool 10|10: T101001 instead of T101002\n"},
     {"ToolChangeLost", operations("12"), replaced(operations("12"), "M06 T101002\n", ""),
