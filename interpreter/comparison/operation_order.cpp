@@ -24,7 +24,6 @@ struct ComparedOperation {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::size_t partner = kNone;  ///< Index of the same operation of the other run.
-  bool is_exact = false;        ///< The partner does the same, but for its way there.
 };
 
 std::vector<ComparedOperation> operations_of(const RecordedRun& run) {
@@ -61,6 +60,9 @@ class OperationSorter {
     pair_exact();
     if (!pair_rest()) return std::nullopt;
     const std::vector<bool> stays = staying();
+    // Runs are copied only where there is something to tell.
+    const bool is_same_order = std::find(stays.begin(), stays.end(), false) == stays.end() && alone(of_b_).empty();
+    if (is_same_order) return std::nullopt;
     OrderedRuns ordered{.a = runs_.a, .b = runs_.b, .changes = {}};
     ordered.a.actions = {runs_.a.actions.begin(), runs_.a.actions.begin() + first(of_a_)};
     ordered.b.actions = {runs_.b.actions.begin(), runs_.b.actions.begin() + first(of_b_)};
@@ -86,7 +88,6 @@ class OperationSorter {
       ordered.changes.push_back({only(ChangeKind::Added, k),
                                  after == ComparedOperation::kNone ? ordered.a.actions.size() : place_of_a[after]});
     }
-    if (ordered.changes.empty()) return std::nullopt;
     finish(runs_.a, of_a_, place_of_a, ordered.a);
     finish(runs_.b, of_b_, place_of_b, ordered.b);
     return ordered;
@@ -153,7 +154,6 @@ class OperationSorter {
         tool_at(runs_.a, left) != tool_at(runs_.b, right) || !is_same(left, right))
       return false;
     pair(i, k);
-    of_a_[i].is_exact = of_b_[k].is_exact = true;
     return true;
   }
 
@@ -364,7 +364,7 @@ class OperationSorter {
     std::vector<double> durations(ordered.actions.size());
     for (std::size_t i = 0; i < prologue; ++i) durations[i] = duration(i);
     for (std::size_t operation = 0; operation < operations.size(); ++operation) {
-      const auto [begin, end, partner, is_exact] = operations[operation];
+      const auto [begin, end, partner] = operations[operation];
       for (std::size_t i = begin; i < end; ++i) {
         index[i] = places[operation] + (partner == ComparedOperation::kNone ? 0 : i - begin);
         if (partner != ComparedOperation::kNone) durations[index[i]] = duration(i);
