@@ -1,7 +1,6 @@
 #include "interpreter/sheet_report.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <set>
 
@@ -10,6 +9,7 @@
 #include "analyzer/selection/run_report.h"
 #include "analyzer/selection/verified.h"
 #include "analyzer/selection/vgpl_values.h"
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/execution/execute.h"
 #include "interpreter/syntax/each_tree.h"
 #include "interpreter/syntax/line_finder.h"
@@ -18,10 +18,9 @@ namespace isocnc::interpreter {
 
 namespace {
 
+/// Whether there is a name before the ending.
 bool ends_in(std::string_view name, std::string_view ending) {
-  if (name.size() <= ending.size()) return false;
-  return std::equal(ending.begin(), ending.end(), name.end() - static_cast<std::ptrdiff_t>(ending.size()),
-                    [](char one, char other) { return one == std::tolower(static_cast<unsigned char>(other)); });
+  return name.size() > ending.size() && dialect::ends_with(name, ending);
 }
 
 /// The findings in the words of isolint.

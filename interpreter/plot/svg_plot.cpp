@@ -139,8 +139,7 @@ std::string SvgPlot::drawn(const View& view, const Toolpath& path, double left) 
   return svg + frames_drawn(view, path) + "</g>\n";
 }
 
-/// The greatest length of the form 1, 2 or 5 times a power of ten that is at most `maximum`.
-static double round_length(double maximum) {
+double round_length(double maximum) {
   const double power = std::pow(10, std::floor(std::log10(maximum)));
   for (const double digit : {5.0, 2.0})
     if (digit * power <= maximum) return digit * power;

@@ -9,6 +9,9 @@
 
 namespace isocnc::plot {
 
+/// The greatest length of the form 1, 2 or 5 times a power of ten that is at most `maximum`: for the bar of a scale.
+double round_length(double maximum);
+
 /// The path from above and in isometric view, machine coordinates, mm, as an SVG document. Rapids are dashed, arcs are
 /// thicker than lines, moves along the view are dots, and the colors of the tools suit people with red-green color
 /// blindness.

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/plot/svg_plot.h"
+
 namespace isocnc::sheet {
 
 using geometry::Vec3;
@@ -153,14 +155,6 @@ void PathView::add_origin(const Vec3& origin, std::string name) {
   origins_.texts.push_back({{at.x + 0.8, at.y - 0.8}, std::move(name)});
 }
 
-/// The greatest length of the form 1, 2 or 5 times a power of ten that is at most `maximum`.
-static double round_length(double maximum) {
-  const double power = std::pow(10, std::floor(std::log10(maximum)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= maximum) return digit * power;
-  return power;
-}
-
 /// Of feed moves.
 static std::uint32_t color_of_style(std::size_t style) { return style == 1 ? kNoToolColor : color_of_tool(style - 2); }
 
@@ -180,7 +174,7 @@ Drawing PathView::finish() {
     drawing_.lines.push_back({{.color = color_of_style(style), .width = kDot}, {point_of(cell)}});
   drawing_.lines.insert(drawing_.lines.end(), origins_.lines.begin(), origins_.lines.end());
   drawing_.texts = std::move(origins_.texts);
-  const double length = round_length((drawing_.width - 2 * kDrawingMargin) / 3 / scale_);
+  const double length = plot::round_length((drawing_.width - 2 * kDrawingMargin) / 3 / scale_);
   const double y = drawing_.height - 2;
   const double right = kDrawingMargin + length * scale_;
   drawing_.lines.push_back(
