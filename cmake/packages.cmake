@@ -88,10 +88,12 @@ foreach(library IN LISTS libraries)
   target_compile_features(isocnc_${library} INTERFACE cxx_std_20)
 endforeach()
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/isocnc)
-install(TARGETS ${library_targets} EXPORT isocnc ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
-        ${unless_asked} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isocnc)
-install(EXPORT isocnc NAMESPACE isocnc:: FILE isocnc-targets.cmake DESTINATION ${package_dir} COMPONENT development
-        ${unless_asked})
+if(NOT ISOCNC_LARGE_UNITS)  # Else there is no library for each.
+  install(TARGETS ${library_targets} EXPORT isocnc ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+          ${unless_asked} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isocnc)
+  install(EXPORT isocnc NAMESPACE isocnc:: FILE isocnc-targets.cmake DESTINATION ${package_dir} COMPONENT development
+          ${unless_asked})
+endif()
 install(DIRECTORY interpreter analyzer DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isocnc COMPONENT development ${unless_asked}
         FILES_MATCHING PATTERN "*.h")
 install(FILES ${CMAKE_BINARY_DIR}/parts/dialect/diagnostic_names.inc ${CMAKE_BINARY_DIR}/parts/dialect/cause_names.inc

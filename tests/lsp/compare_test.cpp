@@ -27,10 +27,6 @@ const std::string kOld =
 
 Json compare_params(const std::string& old) { return {{"textDocument", {{"uri", kUri}}}, {"with", {{"text", old}}}}; }
 
-Json lines(int first, int end) {
-  return {{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", end}, {"character", 0}}}};
-}
-
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   return text.replace(text.find(what), what.size(), by);
 }

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// A flat cutter of radius 10, 100 mm below the nose, which is 120 mm wide.
-constexpr std::string_view kMachine = R"({"machine": {
+constexpr std::string_view kObstacleMachine = R"({"machine": {
   "kinematics": {"type": "three-axis"}, "home": {"z": 400}, "nose": [[120, 120, 120]],
   "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 10, "shape": "flat"},
             {"head": 1, "holder": 1, "tool": 2, "length": 150, "radius": 10, "shape": "flat"},
@@ -32,7 +32,7 @@ constexpr std::string_view kClamp = R"({"fixtures": [{"name": "clamp 2", "box": 
 class Obstacles : public testing::Test {
  protected:
   Obstacles() {
-    folder_.write("isocnc.json", kMachine);
+    folder_.write("isocnc.json", kObstacleMachine);
     folder_.write("part.setup.json", kClamp);
   }
 

@@ -23,10 +23,6 @@ namespace {
 
 using protocol::Encoding;
 
-Json lines(int first, int end) {
-  return {{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", end}, {"character", 0}}}};
-}
-
 /// A session with one program open.
 class Reading {
  public:

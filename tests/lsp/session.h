@@ -59,4 +59,9 @@ class Session : public support::MessageClient {
 /// A step of a `didChange`.
 Json change(int line, int column, int end_line, int end_column, const std::string& text);
 
+/// The range from the start of a line to that of another.
+inline rpc::Json lines(int first, int end) {
+  return {{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", end}, {"character", 0}}}};
+}
+
 }  // namespace isocnc::lsp
