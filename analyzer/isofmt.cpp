@@ -25,6 +25,7 @@
 #include "interpreter/dialect/locale.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/replace_file.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/system/system_texts.h"
@@ -239,7 +240,7 @@ class FormatRun {
 
   void format_file(const std::filesystem::path& file, const FileSettings& settings) {
     const bool from_stdin = file == "-";
-    const std::string name = from_stdin ? options_.stdin_name : file.generic_string();
+    const std::string name = from_stdin ? options_.stdin_name : system::generic_name(file);
     std::optional<system::FileReplacement> replacement;
     if (mode_ == OutputMode::InPlace) replacement.emplace(file);  // Before the file is read.
     const auto opened =
@@ -360,7 +361,7 @@ class TranslationCommand {
   ExitStatus run(const std::filesystem::path& file) {
     if (!read_setup()) return ExitStatus::Failure;
     const bool from_stdin = file == "-";
-    const std::string name = from_stdin ? options_.stdin_name : file.generic_string();
+    const std::string name = from_stdin ? options_.stdin_name : system::generic_name(file);
     const auto opened =
         from_stdin ? SourceFile::read_stream(system::kStandardInput, language_) : SourceFile::open(file, language_);
     if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);

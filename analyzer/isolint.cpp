@@ -22,6 +22,7 @@
 #include "interpreter/configuration/show.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/system/output_file.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/system_texts.h"
 
@@ -103,9 +104,9 @@ std::optional<Programs> find_programs(const LintCommandOptions& options, configu
     std::erase_if(found.files, [&](const std::filesystem::path& file) { return !shard->holds(file); });
   // Tools that read JSON compare arrays, so the order must not depend on how the files were named. Reports of parts are
   // joined in the same order.
-  if (options.format == "json") sort_by_name(found.files, [](const auto& file) { return file.generic_string(); });
+  if (options.format == "json") sort_by_name(found.files, [](const auto& file) { return system::generic_name(file); });
   if (options.format == "sarif")
-    sort_by_name(found.files, [](const auto& file) { return formats::plain_path(file.generic_string()); });
+    sort_by_name(found.files, [](const auto& file) { return formats::plain_path(system::generic_name(file)); });
   Programs programs{.files = std::move(found.files), .settings = {}};
   for (const std::filesystem::path& file : programs.files)
     programs.settings.emplace_back(settings.of(input::place_of_program(file, options.stdin_name)));
@@ -220,7 +221,7 @@ ExitStatus show_config(LintCommandOptions options) {
     return ExitStatus::Failure;
   }
   complain(shown.file.empty() ? std::string(kDefaults.in(language))
-                              : dialect::format(kFrom, language, shown.file.generic_string()));
+                              : dialect::format(kFrom, language, system::generic_name(shown.file)));
   std::error_code unknown;
   const bool is_folder = std::filesystem::is_directory(place, unknown);
   return say(configuration::to_json(is_folder ? shown : without_other_files(shown, place)), options);

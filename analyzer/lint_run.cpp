@@ -14,6 +14,7 @@
 #include "analyzer/selection/run_report.h"
 #include "analyzer/selection/verified.h"
 #include "interpreter/system/descriptor.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/process.h"
 #include "interpreter/system/system_texts.h"
 #include "interpreter/text/unicode.h"
@@ -107,7 +108,7 @@ CheckedFile LintRun::check(const std::filesystem::path& path, const selection::P
   const bool from_stdin = path == "-";
   std::optional<fixing::FileFixing> fixing;
   if (options_.fix && !options_.diff && !from_stdin) fixing.emplace(path);  // Before the file is read.
-  CheckedFile checked{from_stdin ? options_.stdin_name : path.generic_string(), open(path), settings};
+  CheckedFile checked{from_stdin ? options_.stdin_name : system::generic_name(path), open(path), settings};
   const auto* const source = std::get_if<SourceFile>(&checked.opened);
   if (!source) return checked;
   if (options_.fix || options_.diff) {

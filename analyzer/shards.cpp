@@ -10,6 +10,7 @@
 #include "analyzer/lint_counts.h"
 #include "analyzer/lint_output.h"
 #include "interpreter/system/descriptor.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/text/hash.h"
@@ -33,10 +34,10 @@ std::optional<Shard> Shard::read(std::string_view text) {
 
 bool Shard::holds(const std::filesystem::path& file) const {
   // Absolute first: on Windows, /parts/a.iso is a path on the current drive.
-  const std::filesystem::path absolute = std::filesystem::absolute(file).lexically_normal();
+  const std::filesystem::path absolute = system::normal(system::absolute(file));
   const std::filesystem::path relative = absolute.lexically_relative(std::filesystem::current_path());
   const std::filesystem::path& named = relative.empty() ? absolute : relative;
-  return text::hash_on(text::kHashStart, named.generic_string()) % count == index;
+  return text::hash_on(text::kHashStart, system::generic_name(named)) % count == index;
 }
 
 static ExitStatus refuse(std::string_view why) {

@@ -23,6 +23,7 @@
 #include "analyzer/selection/baseline.h"
 #include "analyzer/selection/program_settings.h"
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/process.h"
 
 namespace isocnc::analyzer {
@@ -80,7 +81,7 @@ class Watch {
       if (!stamp) continue;
       const std::filesystem::path& configuration = configurations.of(file).file;
       stamps[file] = {.program = *stamp,
-                      .configuration = configuration.generic_string(),
+                      .configuration = system::generic_name(configuration),
                       .configuration_content = input::stamp_of(configuration),
                       .baseline = baseline_stamp_};
       programs.files.push_back(file);
@@ -124,7 +125,7 @@ class Watch {
     bool is_new = !is_summarized_;  // Whether there is anything to summarize.
     for (const std::filesystem::path& removed : settled.removed) {
       if (!forget(removed)) continue;
-      notes_.push_back(fmt::format("{}: {}", removed.generic_string(), kRemoved.in(style_.language)));
+      notes_.push_back(fmt::format("{}: {}", system::generic_name(removed), kRemoved.in(style_.language)));
       is_new = true;
     }
     Programs batch;

@@ -35,6 +35,7 @@
 #include "interpreter/plot/plot_tools.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/system/terminal.h"
@@ -166,7 +167,7 @@ bool is_apart(const DiffCommandOptions& options, const DiffOperands& operands,
               const std::vector<std::filesystem::path>& configurations) {
   if (!options.has_output_file()) return true;
   std::vector<std::string> read = {operands[0].file, operands[1].file, options.machine.value_or("")};
-  for (const std::filesystem::path& file : configurations) read.push_back(file.generic_string());
+  for (const std::filesystem::path& file : configurations) read.push_back(system::generic_name(file));
   const auto overwritten = std::find_if(read.begin(), read.end(), [&](const std::string& file) {
     return !file.empty() && system::is_same_file(file, options.output);
   });

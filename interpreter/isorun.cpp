@@ -31,6 +31,7 @@
 #include "interpreter/sheet_report.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/system/terminal.h"
@@ -374,7 +375,7 @@ std::vector<NamedFile> files_written(const RunCommandOptions& options) {
 bool files_are_apart(const RunCommandOptions& options, const std::filesystem::path& configuration) {
   const Language language = options.reader_language();
   const NamedFile read[] = {{options.program_file(), kProgram.in(language)},
-                            {configuration.generic_string(), kConfiguration.in(language)},
+                            {system::generic_name(configuration), kConfiguration.in(language)},
                             {options.machine.value_or(""), kMachineFile.in(language)}};
   const std::vector<NamedFile> written = files_written(options);
   const auto refuse_file = [&](const NamedFile& file, const Text& why, auto... what) {

@@ -7,6 +7,7 @@
 
 #include "analyzer/input/files.h"
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/source_file.h"
 #include "lsp/documents/analyzed_document.h"
 #include "lsp/documents/snapshot.h"
@@ -28,7 +29,7 @@ std::vector<std::filesystem::path> ClosedPrograms::programs_in(const Folders& fo
   };
   std::vector<std::string> paths;
   paths.reserve(folders.size());
-  for (const std::filesystem::path& folder : folders) paths.push_back(folder.generic_string());
+  for (const std::filesystem::path& folder : folders) paths.push_back(system::generic_name(folder));
   // A folder that cannot be read is not reported: the user sees it in the editor's view of the folders.
   return input::select_files(paths, rules, dialect::Language::English).files;
 }

@@ -9,6 +9,7 @@
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/text/characters.h"
 
 namespace isocnc::formats {
@@ -64,14 +65,14 @@ std::string StepTexts::note(const check::LocatedFinding& located, const check::R
 }
 
 std::string plain_path(std::string_view name) {
-  return std::filesystem::path(name).lexically_normal().generic_string();
+  return system::generic_name(system::normal(std::filesystem::path(name)));
 }
 
 std::string uri_of(std::string_view name) {
   const std::string path = plain_path(name);
   // On Windows: //server/share/part.iso, c:/part.iso.
   const std::string_view start = path.starts_with("//") ? "file:" : path.starts_with('/') ? "file://" : "file:///";
-  std::string uri(std::filesystem::path(path).is_absolute() ? start : "");
+  std::string uri(system::is_absolute(std::filesystem::path(path)) ? start : "");
   for (const char c : path) {
     const auto byte = static_cast<unsigned char>(c);
     const bool plain =

@@ -1,6 +1,8 @@
 #include "analyzer/input/files.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <unordered_set>
@@ -10,6 +12,8 @@
 #include <fmt/ranges.h>
 
 #include "analyzer/input/gitignore.h"
+#include "interpreter/system/file_status.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/system_texts.h"
 
 namespace isocnc::input {
@@ -27,20 +31,20 @@ struct NamedPath {
 /// Pipes and other files without a real path keep the given one.
 static NamedPath place_of(const fs::path& path) {
   std::error_code error;
-  fs::path real = fs::canonical(path, error);
+  fs::path real = system::canonical(path, error);
   if (error) real = path;
   return {path, std::move(real)};
 }
 
 /// The prefix of files in a directory, so that one is `part.iso`, not `./part.iso` or `parts//part.iso`.
 static fs::path as_prefix(std::string directory) {
-  if (fs::path(directory).lexically_normal() == ".") return {};
+  if (system::normal(fs::path(directory)) == ".") return {};
   while (directory.size() > 1 && directory.ends_with('/')) directory.pop_back();
   return directory;
 }
 
 static std::string problem(const fs::path& path, const std::error_code& error, dialect::Language language) {
-  return path.generic_string() + ": " + system::cannot_read(error, language);
+  return system::generic_name(path) + ": " + system::cannot_read(error, language);
 }
 
 namespace {
@@ -55,16 +59,14 @@ class Search {
   void search(const NamedPath& directory, const GitIgnore& ignored) {
     const SearchRules rules = rules_(directory.real);
     // The directory is closed before its subdirectories are opened, however deep they go.
-    for (const fs::directory_entry& entry : entries(directory)) {
-      const fs::path name = entry.path().filename();
-      std::error_code error;
-      if (entry.is_symlink(error)) continue;
-      const bool is_folder = entry.is_directory(error);
-      if (rules.excluded != nullptr && rules.excluded->name(directory.real / name, is_folder)) continue;
-      if (is_folder) {
-        enter(directory / name, ignored);
-      } else if (is_program(entry, rules.extensions) && !ignored.ignores(directory.real / name, false)) {
-        programs_.push_back(directory / name);
+    for (const system::FolderEntry& entry : entries(directory)) {
+      if (entry.is_symlink) continue;
+      if (rules.excluded != nullptr && rules.excluded->name(directory.real / entry.name, entry.is_folder)) continue;
+      if (entry.is_folder) {
+        enter(directory / entry.name, ignored);
+      } else if (is_program(entry, directory.real, rules.extensions) &&
+                 !ignored.ignores(directory.real / entry.name, false)) {
+        programs_.push_back(directory / entry.name);
       }
     }
   }
@@ -72,7 +74,7 @@ class Search {
   /// The programs, sorted by path.
   std::vector<NamedPath> take_programs() {
     std::sort(programs_.begin(), programs_.end(), [](const NamedPath& a, const NamedPath& b) {
-      return a.shown.generic_string() < b.shown.generic_string();
+      return system::generic_name(a.shown) < system::generic_name(b.shown);
     });
     return std::move(programs_);
   }
@@ -83,11 +85,9 @@ class Search {
   }
 
  private:
-  std::vector<fs::directory_entry> entries(const NamedPath& directory) {
-    std::vector<fs::directory_entry> result;
+  std::vector<system::FolderEntry> entries(const NamedPath& directory) {
     std::error_code error;
-    for (fs::directory_iterator at(directory.real, error); !error && at != fs::end(at); at.increment(error))
-      result.push_back(*at);
+    std::vector<system::FolderEntry> result = system::entries_of(directory.real, error);
     if (error) problems_.push_back(problem(directory.shown.empty() ? "." : directory.shown, error, language_));
     return result;
   }
@@ -98,11 +98,11 @@ class Search {
   }
 
   /// Whether the entry is a regular file with one of the extensions. A pipe is not: reading it would block.
-  static bool is_program(const fs::directory_entry& entry, std::span<const std::string> extensions) {
-    const std::string name = entry.path().filename().generic_string();
-    if (!configuration::is_program_name(name, extensions)) return false;
-    std::error_code error;
-    return entry.is_regular_file(error);
+  static bool is_program(const system::FolderEntry& entry, const fs::path& folder,
+                         std::span<const std::string> extensions) {
+    if (!entry.is_file || !configuration::is_program_name(entry.name.generic_string(), extensions)) return false;
+    const auto status = system::status_of(folder / entry.name);  // Emscripten lists pipes as files.
+    return status && status->kind == system::FileStatus::Kind::Regular;
   }
 
   const RulesOfFolder& rules_;
@@ -117,11 +117,10 @@ class Selector {
   Selector(const RulesOfFolder& rules, dialect::Language language) : rules_(rules), language_(language) {}
 
   void select(const std::string& path) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (error) {
-      selection_.problems.push_back(problem(path, error, language_));
-    } else if (fs::is_directory(status)) {
+    const std::optional<system::FileStatus> status = system::status_of(fs::path(path));
+    if (!status) {
+      selection_.problems.push_back(problem(path, std::error_code(errno, std::generic_category()), language_));
+    } else if (status->kind == system::FileStatus::Kind::Folder) {
       select_directory(path);
     } else {
       add(place_of(path));
@@ -140,7 +139,7 @@ class Selector {
   }
 
   void add(NamedPath file) {
-    if (taken_.insert(file.real.generic_string()).second) selection_.files.push_back(std::move(file.shown));
+    if (taken_.insert(system::generic_name(file.real)).second) selection_.files.push_back(std::move(file.shown));
   }
 
   const RulesOfFolder& rules_;

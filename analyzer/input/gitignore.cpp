@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "interpreter/system/glob.h"
+#include "interpreter/system/paths.h"
 
 namespace isocnc::input {
 
@@ -148,13 +149,13 @@ GitIgnore GitIgnore::entering(const fs::path& directory) const {
 GitIgnore GitIgnore::with(std::string_view text, const fs::path& directory) const {
   GitIgnore rules;
   rules.innermost_ = std::make_shared<const IgnoreRules>(
-      IgnoreRules{(directory / "").generic_string(), parse_rules(text), innermost_});
+      IgnoreRules{system::generic_name(directory / ""), parse_rules(text), innermost_});
   return rules;
 }
 
 bool GitIgnore::ignores(const fs::path& path, bool is_directory) const {
   for (const IgnoreRules* rules = innermost_.get(); rules; rules = rules->outer.get())
-    if (const std::optional<bool> ignored_state = rules->ignored_state(path.generic_string(), is_directory))
+    if (const std::optional<bool> ignored_state = rules->ignored_state(system::generic_name(path), is_directory))
       return *ignored_state;
   return false;
 }

@@ -12,8 +12,9 @@
 #include "analyzer/selection/selection.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/syntax/line_finder.h"
-#include "interpreter/system/counted_bytes.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/source_file.h"
+#include "interpreter/text/counted_bytes.h"
 #include "interpreter/text/unicode.h"
 
 namespace isocnc::selection {
@@ -22,14 +23,14 @@ namespace fs = std::filesystem;
 using dialect::DiagnosticId;
 using dialect::Language;
 using dialect::Text;
-using system::CountedBytes;
+using text::CountedBytes;
 
 static constexpr std::uint64_t kVersion = 1;
 
-Baseline::Baseline(const fs::path& file) : folder_(fs::absolute(file).lexically_normal().parent_path()) {}
+Baseline::Baseline(const fs::path& file) : folder_(system::normal(system::absolute(file)).parent_path()) {}
 
 std::string Baseline::name_of(std::string_view program) const {
-  return text::printable(fs::absolute(program).lexically_normal().lexically_relative(folder_).generic_string());
+  return text::printable(system::generic_name(system::normal(system::absolute(program)).lexically_relative(folder_)));
 }
 
 void Baseline::add(std::string_view program, std::string_view text, const check::Report& report) {
@@ -220,7 +221,7 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
 std::variant<Baseline, std::string> Baseline::read(const fs::path& file, Language language) {
   const auto opened = system::SourceFile::open(file, language);
   if (const auto* problem = std::get_if<system::SourceFile::Problem>(&opened))
-    return fmt::format("{}: {}", file.generic_string(), problem->message);
+    return fmt::format("{}: {}", system::generic_name(file), problem->message);
   const std::string_view text = std::get<system::SourceFile>(opened).text();
   const char* const end = text.data() + text.size();
   const char* furthest = text.data();
@@ -230,7 +231,7 @@ std::variant<Baseline, std::string> Baseline::read(const fs::path& file, Languag
     return baseline;
   // After a number the parser has read one byte more, which may be the line end.
   const auto line = 1 + std::count(text.data(), std::max(text.data(), furthest - 1), '\n');
-  return fmt::format("{}:{}: {}", file.generic_string(), line, reader.mistake());
+  return fmt::format("{}:{}: {}", system::generic_name(file), line, reader.mistake());
 }
 
 }  // namespace isocnc::selection

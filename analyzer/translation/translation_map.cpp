@@ -10,6 +10,7 @@
 
 #include "interpreter/configuration/json_value.h"
 #include "interpreter/configuration/read.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/text/unicode.h"
 
@@ -230,7 +231,7 @@ std::variant<TranslationMap, std::vector<Mistake>> read_translation_map(std::str
 
 std::variant<TranslationMap, std::string> load_translation_map(const std::filesystem::path& file,
                                                                dialect::Language language) {
-  const std::string name = text::printable(file.generic_string());
+  const std::string name = text::printable(system::generic_name(file));
   auto bytes = system::read_bytes(file, configuration::kLongestFile, language);
   if (const auto* problem = std::get_if<system::FileBytesProblem>(&bytes)) {
     using Kind = system::FileBytesProblem::Kind;

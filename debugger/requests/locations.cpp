@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "debugger/requests/request.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/text/unicode.h"
 
 namespace isocnc::requests {
@@ -22,8 +23,8 @@ void from_json(const Json& json, LocationsArguments& arguments) {
 }  // namespace
 
 static Json in_other_file(const Session& session, const dialect::FilePlace& place) {
-  const std::filesystem::path file = std::filesystem::absolute(place.file);
-  return {{"source", {{"name", file.filename().generic_string()}, {"path", file.generic_string()}}},
+  const std::filesystem::path file = system::absolute(place.file);
+  return {{"source", {{"name", file.filename().generic_string()}, {"path", system::generic_name(file)}}},
           {"line", session.client().to_client_line(place.line)}};
 }
 

@@ -6,6 +6,7 @@
 
 #include "debugger/dap/request_error.h"
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/system/paths.h"
 
 namespace isocnc::session {
 
@@ -23,7 +24,7 @@ static std::string mistakes_of(const Configurations& read, Language language) {
 static debuggee::ProgramText read_program(const std::filesystem::path& file, Language language) {
   auto text = debuggee::ProgramText::read(file, language);
   if (const auto* const problem = std::get_if<debuggee::ProgramText::ReadError>(&text))
-    throw dap::RequestError(fmt::format("{}: {}", file.generic_string(), problem->message));
+    throw dap::RequestError(fmt::format("{}: {}", system::generic_name(file), problem->message));
   return std::get<debuggee::ProgramText>(std::move(text));
 }
 
@@ -51,7 +52,7 @@ Launch launch(const LaunchOptions& options, std::optional<Language> commanded, L
 
 difference::ReferenceProgram read_reference(const std::filesystem::path& file, const SessionState& state) {
   LaunchOptions options = state.launch_options;
-  options.program = std::filesystem::absolute(options.program.parent_path() / file).lexically_normal();
+  options.program = system::normal(system::absolute(options.program.parent_path() / file));
   const Launch read = launch(options, state.commanded_language, state.language());
   return {.name = options.program.filename().generic_string(),
           .text = std::string(read.debuggee.text().text()),

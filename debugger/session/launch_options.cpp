@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "debugger/dap/arguments.h"
+#include "interpreter/system/paths.h"
 
 namespace isocnc::session {
 
@@ -33,9 +34,9 @@ static void read_files(const Json& arguments, LaunchOptions& options) {
   const std::string program = dap::member<std::string>(arguments, "program").value_or("");
   if (program.empty() || program.find('\0') != std::string::npos) throw dap::ArgumentError(kNoProgram, "program");
   const std::filesystem::path folder = dap::member<std::string>(arguments, "cwd").value_or("");
-  options.program = std::filesystem::absolute(folder / program).lexically_normal();
+  options.program = system::normal(system::absolute(folder / program));
   const auto machine = dap::member<std::string>(arguments, "machine");
-  if (machine && !machine->empty()) options.machine = (folder / *machine).generic_string();
+  if (machine && !machine->empty()) options.machine = system::generic_name(folder / *machine);
 }
 
 static double read_speed(const Json& arguments) {

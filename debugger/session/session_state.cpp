@@ -1,5 +1,6 @@
 #include "debugger/session/session_state.h"
 
+#include "interpreter/system/paths.h"
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/user_language.h"
 
@@ -17,12 +18,12 @@ expressions::Moment SessionState::moment_of(const simulation::Simulation& simula
 
 bool SessionState::is_program(const std::filesystem::path& file) const {
   const std::filesystem::path& program = launch_options.program;
-  return file == program || system::is_same_file(file.generic_string(), program.generic_string());
+  return file == program || system::is_same_file(system::generic_name(file), system::generic_name(program));
 }
 
 Json SessionState::source() const {
   return {{"name", launch_options.program.filename().generic_string()},
-          {"path", launch_options.program.generic_string()}};
+          {"path", system::generic_name(launch_options.program)}};
 }
 
 dialect::Language SessionState::language() const {

@@ -8,6 +8,7 @@
 
 #include "interpreter/configuration/read.h"
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/text/unicode.h"
 
@@ -19,10 +20,10 @@ using system::SourceFile;
 
 fs::path real_path(const fs::path& path) {
   std::error_code error;
-  fs::path real = fs::weakly_canonical(path.empty() ? "." : path, error);
-  if (error) real = fs::absolute(path, error).lexically_normal();
+  fs::path real = system::weakly_canonical(path.empty() ? "." : path, error);
+  if (error) real = system::normal(system::absolute(path, error));
   // A path that does not exist is still relative.
-  if (real.is_relative()) real = (fs::current_path(error) / real).lexically_normal();
+  if (!system::is_absolute(real)) real = system::normal(fs::current_path(error) / real);
   return real;
 }
 
@@ -37,13 +38,13 @@ Configurations::Configurations(ConfigurationSource source, Language language)
     : source_(std::move(source)), language_(language) {}
 
 const Configuration& Configurations::in_folder(const fs::path& folder) {
-  const auto [known, is_new] = asked_.try_emplace(folder.generic_string(), &none_);
+  const auto [known, is_new] = asked_.try_emplace(system::generic_name(folder), &none_);
   if (!is_new || source_.none) return *known->second;
   const bool is_loaded = source_.file && !files_.empty();
   const Configuration& found = is_loaded      ? files_.front()->configuration
                                : source_.file ? load(*source_.file, *source_.file)
                                               : nearest(real_path(folder));
-  return *(asked_[folder.generic_string()] = &found);
+  return *(asked_[system::generic_name(folder)] = &found);
 }
 
 const Configuration& Configurations::of(const fs::path& path) {
@@ -52,7 +53,7 @@ const Configuration& Configurations::of(const fs::path& path) {
 }
 
 const Configuration& Configurations::nearest(const fs::path& folder) {
-  if (const auto known = folders_.find(folder.generic_string()); known != folders_.end()) return *known->second;
+  if (const auto known = folders_.find(system::generic_name(folder)); known != folders_.end()) return *known->second;
   const fs::path file = folder / kFileName;
   std::error_code error;
   const bool is_here = fs::exists(fs::symlink_status(file, error));  // Includes broken links, which are reported.
@@ -62,7 +63,7 @@ const Configuration& Configurations::nearest(const fs::path& folder) {
   } else if (folder.has_relative_path()) {
     found = &nearest(folder.parent_path());
   }
-  return *(folders_[folder.generic_string()] = found);
+  return *(folders_[system::generic_name(folder)] = found);
 }
 
 const Configuration& Configurations::load(const fs::path& file, const fs::path& shown) {
@@ -101,7 +102,7 @@ std::vector<std::string> Configurations::mistakes(Language language) const {
   std::vector<std::string> lines;
   const std::string_view error = dialect::severity_name(dialect::Severity::Error, language);
   for (const std::unique_ptr<File>& file : files_) {
-    const std::string name = file->configuration.file.generic_string();
+    const std::string name = system::generic_name(file->configuration.file);
     if (!file->problem.empty()) lines.push_back(text::printable(fmt::format("{}: {}: {}", name, error, file->problem)));
     for (const auto& [place, mistake] : file->mistakes)
       lines.push_back(located_message(name, place, mistake, language));

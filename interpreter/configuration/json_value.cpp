@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "interpreter/system/counted_bytes.h"
+#include "interpreter/text/counted_bytes.h"
 #include "interpreter/text/unicode.h"
 
 namespace isocnc::configuration {
@@ -186,7 +186,7 @@ std::variant<JsonValue, Mistake> parse_json(std::string_view text) {
   const char* furthest = text.data();
   const char* const end = text.data() + text.size();
   JsonBuilder builder(text, furthest);
-  using system::CountedBytes;
+  using text::CountedBytes;
   if (nlohmann::json::sax_parse(CountedBytes(text.data(), furthest), CountedBytes(end, furthest), &builder,
                                 nlohmann::json::input_format_t::json, true, true))
     return builder.take();

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "interpreter/configuration/tool_bodies.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/verification/surroundings.h"
 
 namespace isocnc::configuration {
@@ -22,7 +23,7 @@ static constexpr double kBoardReach = 1e5;
 static constexpr double kBoardThickness = 100;
 
 static BodyDescription described(const std::filesystem::path& file, const DescriptionPlace& place) {
-  return {.file = file.generic_string(), .line = place.shown.line - 1, .column = place.byte};
+  return {.file = system::generic_name(file), .line = place.shown.line - 1, .column = place.byte};
 }
 
 static Vec3 corner(const std::vector<double>& row) { return {row[0], row[1], row[2]}; }
@@ -137,11 +138,11 @@ Scene make_scene(const MachineConfiguration& machine, const std::optional<Locate
                  const ShapeSource& shapes) {
   Scene scene;
   add_machine(machine, shapes, scene);
-  scene.name = machine.file.generic_string();
+  scene.name = system::generic_name(machine.file);
   scene.has_setup = located.has_value();
   if (!located) return scene;
   const DescribedSetup& setup = located->setup;
-  scene.name = located->file.generic_string();
+  scene.name = system::generic_name(located->file);
   scene.is_in_workpiece_frame = setup.frame == "workpiece";
   scene.clearance = setup.clearance;
   scene.resolution = setup.resolution;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "interpreter/system/paths.h"
+
 namespace isocnc::configuration {
 
 namespace fs = std::filesystem;
@@ -34,7 +36,7 @@ bool PathPatterns::name(const fs::path& path, bool is_directory) const {
   return std::any_of(patterns_.begin(), patterns_.end(), [&](const Pattern& pattern) {
     if (pattern.only_directories && !is_directory) return false;
     if (!pattern.whole_path) return pattern.glob.matches(path.filename().generic_string());
-    return is_below && pattern.glob.matches(below.generic_string());
+    return is_below && pattern.glob.matches(system::generic_name(below));
   });
 }
 

@@ -8,6 +8,7 @@
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/configuration/read.h"
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/text/unicode.h"
 
@@ -37,7 +38,7 @@ std::shared_ptr<const Scene> Scenes::of(const Configuration& configuration, cons
 }
 
 Scenes::ScenePointer Scenes::own_scene(const Configuration& configuration, const fs::path& file) {
-  OwnScene& own = own_[{&configuration, file.generic_string()}];
+  OwnScene& own = own_[{&configuration, system::generic_name(file)}];
   if (own.has_mistakes) return nullptr;
   if (ScenePointer known = own.scene.lock()) return known;
   const fs::path folder = real_path(file.parent_path());
@@ -50,7 +51,7 @@ Scenes::ScenePointer Scenes::own_scene(const Configuration& configuration, const
 
 /// The setup that a file describes; none, after its mistakes, if it is wrong.
 std::optional<DescribedSetup> Scenes::read_setup_file(const fs::path& file, const fs::path& folder) {
-  const std::string shown = file.generic_string();
+  const std::string shown = system::generic_name(file);
   const auto refuse = [&](const dialect::Text& text, std::vector<Named> names) {
     mistakes_.push_back({.file = shown,
                          .place = {},
@@ -106,7 +107,7 @@ Scenes::ScenePointer Scenes::make(const Configuration& configuration, const std:
   const auto complain = [&](const ShapeRequest& request, Mistake mistake) {
     is_whole = false;
     mistake.key = request.shape.key;
-    const std::string file = request.file.generic_string();
+    const std::string file = system::generic_name(request.file);
     const LineColumn place = request.shape.place.shown;
     if (missing_shapes_.emplace(file, place.line, place.column).second)
       mistakes_.push_back({.file = file, .place = place, .mistake = std::move(mistake), .is_of_shape = true});

@@ -10,6 +10,7 @@
 #include "interpreter/solids/clearance.h"
 #include "interpreter/solids/stl.h"
 #include "interpreter/stock/stock_file.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/source_file.h"
 
 namespace isocnc::configuration {
@@ -100,7 +101,7 @@ static std::optional<fs::path> file_below(const fs::path& folder, const std::str
 template <class Loaded>
 static const Loaded& loaded(std::map<std::pair<std::string, std::string>, Loaded>& known, const fs::path& folder,
                             const std::string& name, const std::function<Loaded(const fs::path& file)>& read) {
-  const auto [place, is_new] = known.try_emplace({folder.generic_string(), name});
+  const auto [place, is_new] = known.try_emplace({system::generic_name(folder), name});
   if (!is_new) return place->second;
   const std::optional<fs::path> file = file_below(folder, name);
   return place->second = file ? read(*file) : mistake(mistakes::kOutsideFolder, name);
@@ -112,7 +113,7 @@ ShapeFiles::MeshOrMistake ShapeFiles::mesh(const fs::path& folder, const std::st
       loaded<MeshOrMistake>(meshes_, folder, name, [&](const fs::path& file) { return read_mesh(file, name); });
   const auto* const mesh = std::get_if<std::shared_ptr<const Mesh>>(&unshifted);
   if (mesh == nullptr || !shift || shift->isZero(0)) return unshifted;
-  const std::tuple key(folder.generic_string(), name, shift->x(), shift->y(), shift->z());
+  const std::tuple key(system::generic_name(folder), name, shift->x(), shift->y(), shift->z());
   if (const auto known = shifted_.find(key); known != shifted_.end()) return known->second;
   const solids::BoundingBox box = (*mesh)->bounds().translated(*shift);
   if (box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() > solids::kMaxCoordinate)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/dialect/format.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/process.h"
 #include "interpreter/system/system_texts.h"
 
@@ -133,10 +134,10 @@ bool Question::find_place() {
   const std::size_t end = folders->rfind("\n../");
   here_ = folders->substr(0, end);
   const fs::path top = end == std::string::npos ? fs::path() : fs::path(folders->substr(end + 1));
-  path_ = fs::path(file_.path).generic_string();
+  path_ = system::generic_name(fs::path(file_.path));
   if (path_.starts_with("./") || path_.starts_with("../"))
-    path_ = (fs::path(here_) / path_).lexically_normal().generic_string();
-  const std::string straight = fs::path(path_).lexically_normal().generic_string();
+    path_ = system::generic_name(system::normal(fs::path(here_) / path_));
+  const std::string straight = system::generic_name(system::normal(fs::path(path_)));
   if (straight == ".." || straight.starts_with("../")) {
     fail(kOutside);
     return false;
@@ -227,7 +228,7 @@ std::size_t find_colon(std::string_view operand) {
 }
 
 bool is_on_drive(const std::string& operand) {
-  if (fs::path(operand).has_root_name()) return true;  // On Windows alone.
+  if (system::has_root_name(fs::path(operand))) return true;  // On Windows alone.
   return operand.size() > 2 && std::isalpha(static_cast<unsigned char>(operand[0])) != 0 && operand[1] == ':' &&
          (operand[2] == '\\' || operand[2] == '/');
 }

@@ -11,6 +11,7 @@
 #include "interpreter/sheet/tool_picture.h"
 #include "interpreter/simulation/spindle_turn.h"
 #include "interpreter/simulation/timed_run.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/text/sha256.h"
 #include "interpreter/verification/verifier.h"
 
@@ -313,7 +314,7 @@ Sheet survey(const SheetSubject& subject) {
   sheet.hash = text::sha256(subject.bytes);
   sheet.lines = static_cast<std::size_t>(std::count(subject.text.begin(), subject.text.end(), '\n')) +
                 (subject.text.empty() || subject.text.back() == '\n' ? 0 : 1);
-  sheet.machine = subject.machine.file.generic_string();
+  sheet.machine = system::generic_name(subject.machine.file);
   sheet.stop = stop_of(result, subject.language);
   sheet.values = values_of(subject.run);
   sheet.first_zero = first_zero;

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 
+#include "interpreter/system/paths.h"
 #include "interpreter/system/system_texts.h"
 
 namespace isocnc::system {
@@ -17,7 +18,7 @@ static constexpr Text kHasChanged{"has been changed meanwhile by another program
 
 FileReplacement::FileReplacement(const std::filesystem::path& path) {
   std::error_code error;
-  target_ = std::filesystem::canonical(path, error);
+  target_ = system::canonical(path, error);
   if (error) {
     error_ = error.default_error_condition().value();
     return;

@@ -2,6 +2,8 @@
 
 #include <system_error>
 
+#include "interpreter/system/paths.h"
+
 namespace isocnc::system {
 
 namespace fs = std::filesystem;
@@ -12,14 +14,14 @@ fs::path place_of(fs::path path) {
   std::error_code error;
   for (int i = 0; i < kMaxSymlinks && fs::is_symlink(path, error); ++i)
     path = path.parent_path() / fs::read_symlink(path, error);
-  return fs::weakly_canonical(fs::absolute(path, error), error);
+  return system::weakly_canonical(system::absolute(path, error), error);
 }
 
 bool names_descriptor(fs::path path) {
   std::error_code error;
   for (int i = 0; i < kMaxSymlinks && fs::is_symlink(path, error); ++i) {
-    const fs::path folder = fs::canonical(fs::absolute(path, error).parent_path(), error);
-    if (folder.generic_string().starts_with("/proc/")) return true;
+    const fs::path folder = system::canonical(system::absolute(path, error).parent_path(), error);
+    if (generic_name(folder).starts_with("/proc/")) return true;
     path = folder / fs::read_symlink(path, error);
   }
   return false;

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "analyzer/formats/rendering.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/process.h"
 #include "lsp/protocol/uri.h"
 
@@ -19,7 +20,7 @@ static std::string find_page(const fs::path& page) {
   const fs::path places[] = {program.parent_path() / "../share/doc/isocnc" / page,
                              program.parent_path() / "../../.." / page};
   for (const fs::path& place : places)
-    if (fs::exists(place, error)) return protocol::uri_of(fs::weakly_canonical(place, error));
+    if (fs::exists(place, error)) return protocol::uri_of(system::weakly_canonical(place, error));
   return {};
 }
 

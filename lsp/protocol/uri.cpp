@@ -11,6 +11,7 @@
 #include "interpreter/configuration/scenes.h"
 #include "interpreter/configuration/shape_files.h"
 #include "interpreter/dialect/any_case.h"
+#include "interpreter/system/paths.h"
 
 namespace isocnc::protocol {
 
@@ -42,8 +43,8 @@ std::optional<std::filesystem::path> path_of(std::string_view uri) {
   if (path.find('\0') != std::string::npos) return std::nullopt;
   // Where names have roots, on Windows: file:///c:/part.iso and file://server/share/part.iso.
   const std::filesystem::path rooted = host.empty() ? path.substr(1) : fmt::format("//{}{}", host, path);
-  if (rooted.has_root_name()) return rooted.lexically_normal();
-  return host.empty() ? std::optional(std::filesystem::path(path).lexically_normal()) : std::nullopt;
+  if (system::has_root_name(rooted)) return system::normal(rooted);
+  return host.empty() ? std::optional(system::normal(std::filesystem::path(path))) : std::nullopt;
 }
 
 bool names_configuration(std::string_view uri) {
@@ -60,6 +61,6 @@ bool names_shape(std::string_view uri) {
          std::any_of(std::begin(configuration::kShapeExtensions), std::end(configuration::kShapeExtensions), has);
 }
 
-std::string uri_of(const std::filesystem::path& path) { return formats::uri_of(path.generic_string()); }
+std::string uri_of(const std::filesystem::path& path) { return formats::uri_of(system::generic_name(path)); }
 
 }  // namespace isocnc::protocol

@@ -9,6 +9,7 @@ PROGRAMS is a folder of scripts that run them; HOLD_FILE is the command of tests
 import json
 import os
 import pathlib
+import shutil
 import socket
 import subprocess
 import sys
@@ -102,6 +103,62 @@ class Windows(unittest.TestCase):
         self.assertEqual(file.read_bytes().decode(), TIDY)
         self.assertEqual(list(file.parent.iterdir()), [file])
 
+    def test_folders_may_be_deeper_than_260_characters(self):
+        deep = pathlib.Path("top")
+        while len(str(deep)) < 400:
+            deep = deep / ("folder" * 5)
+        file = self.write(deep / "a.iso", UNTIDY)
+        self.write(deep.parent / "b.iso")
+        self.assertEqual({pathlib.Path(name).name for name, _ in self.codes("top", cwd=self.folder)}, {"b.iso"})
+        result = run("isofmt", "-i", "top", cwd=self.folder)
+        self.assertEqual((result.returncode, file.read_bytes().decode()), (0, TIDY), result.stderr)
+
+    def share(self):
+        """A folder as a share of a server, beside a folder of this computer that is called the same."""
+        prefix = PROGRAMS.parent / "wine"  # As cmake/windows.cmake has it.
+        server = f"server-{os.getpid()}"
+        twin = prefix / "drive_c" / server
+        link = prefix / "dosdevices" / "unc" / server / "share"
+        for made in (twin, link.parent):
+            made.mkdir(parents=True)
+            self.addCleanup(shutil.rmtree, made)
+        (twin / "share").mkdir()
+        link.symlink_to(self.folder)
+        return rf"\\{server}\share", twin / "share"
+
+    def test_shares_of_servers_are_no_folders_of_this_computer(self):
+        share, twin = self.share()
+        (twin / "a.iso").write_text(UNTIDY + "; of this computer\r\n")
+        before = (twin / "a.iso").read_bytes()
+        for command in (("isofmt", "-i"), ("isolint", "--no-config", "--select", "W125", "--fix")):
+            for written in (share + r"\a.iso", share.replace("\\", "/") + "/a.iso"):
+                file = self.write("a.iso", UNTIDY)
+                run(*command, written)
+                self.assertIn("M06 T101001", file.read_text(), (command, written))
+                self.assertEqual((twin / "a.iso").read_bytes(), before)
+        report = run("isolint", "--no-config", "--format", "json", "--output", share + r"\report.json", share + r"\a.iso")
+        self.assertEqual(report.stderr, b"")
+        self.assertEqual(json.loads((self.folder / "report.json").read_text()), [])
+        self.assertEqual(list(twin.iterdir()), [twin / "a.iso"])
+
+    def test_programs_on_a_share_have_its_configuration_and_its_name(self):
+        share, _ = self.share()
+        shown = share.replace("\\", "/")
+        self.write("più/a.iso")
+        self.assertEqual(self.codes(share), [(shown + "/più/a.iso", "ISO028")])
+        sarif = run("isolint", "--no-config", "--format", "sarif", share)
+        self.assertIn("file:" + shown + "/pi%C3%B9/a.iso", sarif.stdout.decode())
+        self.write("isocnc.json", json.dumps({"lint": {"ignore": ["ISO028"]}}))
+        self.assertEqual(run("isolint", share + "\\più\\a.iso").returncode, 0)
+        server, messages = self.server()
+        uri = "file:" + shown + "/pi%C3%B9/a.iso"
+        document = {"uri": uri, "languageId": "isocnc", "version": 1, "text": WRONG}
+        server.stdin.write(framed({"jsonrpc": "2.0", "method": "initialized", "params": {}}))
+        server.stdin.write(framed({"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": document}}))
+        server.stdin.flush()
+        published = (each["params"] for each in messages if each.get("method") == "textDocument/publishDiagnostics")
+        self.assertEqual(next(each for each in published if each["uri"] == uri)["diagnostics"], [])
+
     def test_patterns_in_configurations_are_written_with_slashes(self):
         self.write("isocnc.json", json.dumps({"lint": {"exclude": ["old/**"]}}))
         self.write("old/deep/a.iso")
@@ -160,10 +217,16 @@ class Windows(unittest.TestCase):
     def test_a_read_only_file_is_not_replaced(self):
         file = self.write("a.iso", UNTIDY)
         file.chmod(0o444)
-        if os.geteuid() == 0:
-            self.skipTest("the superuser may write everything")
         self.assertEqual(run("isofmt", "-i", file).returncode, 2)
         self.assertEqual(file.read_bytes().decode(), UNTIDY)
+
+    def test_a_hidden_file_stays_hidden(self):
+        self.write("a.iso", UNTIDY)
+        attrib = [*HOLD_FILE[:-1], "cmd", "/c", "attrib"]
+        subprocess.run([*attrib, "+H", "a.iso"], cwd=self.folder, check=True, timeout=60)
+        self.assertEqual(run("isofmt", "-i", "a.iso", cwd=self.folder).returncode, 0)
+        shown = subprocess.run([*attrib, "a.iso"], cwd=self.folder, check=True, timeout=60, capture_output=True).stdout
+        self.assertIn(b"H", shown[:12])
 
     # --- Text
 

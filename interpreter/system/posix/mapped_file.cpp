@@ -10,6 +10,7 @@
 
 #include "interpreter/system/exit_status.h"
 #include "interpreter/system/handler_table.h"
+#include "interpreter/system/paths.h"
 #include "interpreter/system/temporary_file.h"
 #include "interpreter/text/unicode.h"
 
@@ -33,7 +34,7 @@ MappedFile::MappedFile(const std::filesystem::path& path, int descriptor, std::s
     return;
   }
   begin_ = static_cast<const char*>(bytes);
-  complaint_ = text::printable(path.generic_string()) + ": " + std::string(kWasCutShort.in(language)) + "\n";
+  complaint_ = text::printable(generic_name(path)) + ": " + std::string(kWasCutShort.in(language)) + "\n";
   mapped_files.add(this);
 }
 

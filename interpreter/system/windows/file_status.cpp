@@ -4,6 +4,7 @@
 
 #include <aclapi.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <memory>
 
@@ -68,10 +69,29 @@ std::optional<FileStatus> status_of(const fs::path& path) {
 
 std::optional<FileStatus> status_of(int descriptor) { return status_of(handle_of(descriptor)); }
 
-bool may_write(const fs::path& path) { return open(path, FILE_WRITE_DATA) != nullptr; }
+bool may_write(const fs::path& path) {
+  const DWORD attributes = ::GetFileAttributesW(native(path).c_str());
+  if (attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_READONLY) != 0) {
+    errno = EACCES;  // Whoever the user is.
+    return false;
+  }
+  return open(path, FILE_WRITE_DATA) != nullptr;
+}
 
-/// Takes over the access rights. Where the user may not set them, those of the folder stay, as for any new file.
+/// Gives a new file the marks of the one that it replaces: hidden, system, to be archived, not to be indexed.
+static void take_over_marks(HANDLE file, const fs::path& replaced) {
+  constexpr DWORD kMarks =
+      FILE_ATTRIBUTE_HIDDEN | FILE_ATTRIBUTE_SYSTEM | FILE_ATTRIBUTE_ARCHIVE | FILE_ATTRIBUTE_NOT_CONTENT_INDEXED;
+  const DWORD attributes = ::GetFileAttributesW(native(replaced).c_str());
+  if (attributes == INVALID_FILE_ATTRIBUTES) return;
+  FILE_BASIC_INFO info{};  // Times of 0 stay as they are.
+  info.FileAttributes = (attributes & kMarks) != 0 ? attributes & kMarks : DWORD{FILE_ATTRIBUTE_NORMAL};
+  ::SetFileInformationByHandle(file, FileBasicInfo, &info, sizeof info);
+}
+
+/// Takes over marks and access rights. Where the user may not set them, those of the folder stay, as for any new file.
 bool take_over_attributes(int descriptor, const fs::path& replaced, const FileStatus&) {
+  take_over_marks(handle_of(descriptor), replaced);
   PACL rights = nullptr;
   PSECURITY_DESCRIPTOR found = nullptr;
   std::wstring name = native(replaced);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <iterator>
 
-namespace isocnc::system {
+namespace isocnc::text {
 
 /// An iterator over a text for a parser that does not report its position: `furthest` holds the furthest position that
 /// any copy has reached.
@@ -30,4 +30,4 @@ class CountedBytes {
   const char** furthest_;
 };
 
-}  // namespace isocnc::system
+}  // namespace isocnc::text
