@@ -100,6 +100,7 @@ test('calls at the same time load the module once', () => {
 test('mistakes are errors that say what is wrong', async () => {
   await assert.rejects(check('', { configuration: { machin: {} } }), (error) => error instanceof CommandError && /machin: unknown key/.test(error.message));
   for (const args of [['--list-rules'], ['--statistics'], ['--version']]) await assert.rejects(check('X', { args }), CommandError);
+  for (const options of [{ lang: 'it' }, 'it', { language: 5 }, { filename: 5 }, { files: { 'x.stl': 5 } }]) await assert.rejects(check('', options), CommandError);
   for (const text of [undefined, null, new Uint8Array([77, 48, 50])]) await assert.rejects(check(text), TypeError);
   await assert.rejects(format('', { args: ['--bogus'] }), (error) => error instanceof CommandError && /--bogus/.test(error.message));
   await assert.rejects(check('\0'.repeat(100)), CommandError);

@@ -359,11 +359,10 @@ test('on a phone its parts are tabs, and nothing is cut off', async () => {
     for (const part of ['source', 'findings', 'toolpath']) {
       await page.locator(`#tab-${part}`).click();
       for (const other of ['source', 'findings', 'toolpath']) assert.equal(await page.locator(`#${other}`).isVisible(), other === part);
-      const outside = await page.evaluate(() =>
+      const outside = await page.evaluate((width) =>
         [...document.querySelectorAll('header *, #tabs *, .bar *, footer *, #run *, .overlay')]
-          .filter((each) => each.checkVisibility() && !each.closest('.hidden') && each.getBoundingClientRect().right > innerWidth)
-          .map((each) => each.id || each.outerHTML),
-      );
+          .filter((each) => each.checkVisibility() && !each.closest('.hidden') && each.getBoundingClientRect().right > width)
+          .map((each) => each.id || each.outerHTML), 390);
       assert.deepEqual(outside, [], `${locale}: ${part}`);
     }
     await drawn(page);
@@ -372,6 +371,21 @@ test('on a phone its parts are tabs, and nothing is cut off', async () => {
     assert.ok(await page.locator('#findings').isVisible());
     await page.close();
   }
+});
+
+test('at every width the header is whole, says that nothing leaves the browser, and leaves room for the program', async () => {
+  for (const locale of ['en-US', 'it-IT'])
+    for (const [width, height] of [[320, 640], [600, 900], [768, 1024], [844, 390], [880, 800], [1024, 600], [1400, 900]]) {
+      const page = await open({ viewport: { width, height }, locale });
+      const header = await page.evaluate(() => {
+        const isOutside = (each) => each.checkVisibility() && (each.getBoundingClientRect().right > document.documentElement.clientWidth || each.getBoundingClientRect().left < 0);
+        const editor = document.querySelector('#editor').getBoundingClientRect().height;
+        return { outside: [...document.querySelectorAll('#top *')].filter(isOutside).map((each) => each.id || each.outerHTML), isSaid: document.querySelector('#private').checkVisibility(), editor };
+      });
+      assert.deepEqual([header.outside, header.isSaid], [[], true], `${locale}, ${width} x ${height}`);
+      assert.ok(header.editor > 120, `${locale}, ${width} x ${height}: ${header.editor} px`);
+      await page.close();
+    }
 });
 
 test('nothing leaves the browser, even where a script tries', async () => {

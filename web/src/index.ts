@@ -10,7 +10,7 @@ export interface Options {
   configuration?: string | object;
   /** What stands beside the program, by names as the configuration has them: `part.setup.json`, STL files, stocks. */
   files?: Readonly<Record<string, string | Uint8Array>>;
-  /** What the program is called in messages; else program.iso. */
+  /** What the program is called in results; else program.iso. */
   filename?: string;
   /** Further options of the command, as in a shell: `['--select', 'ALL']`. */
   args?: readonly string[];
@@ -67,12 +67,40 @@ export interface Change {
   text: string;
 }
 
+/** What a program does as a whole. */
+export interface ComparedRun {
+  /** Cycle time in seconds. */
+  time: number;
+  /** Length of feed moves, and of rapids, in mm. */
+  feedMm: number;
+  rapidMm: number;
+  /** Of the tip, mm, in machine coordinates; null without a motion. */
+  extents: Record<'X' | 'Y' | 'Z', [number, number]> | null;
+  /** mm^3, with `--verify` and a stock. */
+  removedVolume?: number;
+  /** In the order of their first use; times in seconds, with their tool changes. */
+  tools: { tool: string; time: number; removedVolume?: number }[];
+}
+
+/** A finding that one of the programs alone has, or that says something else in the new one. */
+export interface ComparedFinding {
+  kind: 'new' | 'gone' | 'changed';
+  code: string;
+  severity: 'error' | 'warning' | 'info';
+  /** Its line in each program, from 1. */
+  old: number | null;
+  new: number | null;
+  text: string;
+  /** Of a changed one, what it said. */
+  oldText?: string;
+}
+
 export interface Comparison {
   same: boolean;
-  /** Cycle times in seconds. */
-  old: { time: number };
-  new: { time: number };
+  old: ComparedRun;
+  new: ComparedRun;
   changes: Change[];
+  findings: ComparedFinding[];
   /** Jumps, lines from 1, at which other values of VGPL or of a register lead along paths that are not compared. */
   otherPaths?: { revision: 'old' | 'new'; name: string; line: number }[];
 }
@@ -122,9 +150,23 @@ function place(FS: Files, files: Options['files'] = {}): string[] {
   });
 }
 
+/** Throws where a caller without types has given what is no option. */
+function checked(options: Options): void {
+  const known = ['language', 'configuration', 'files', 'filename', 'args', 'trace'];
+  if (typeof options !== 'object') throw new CommandError('the options are no object');
+  const unknown = Object.keys(options).find((key) => !known.includes(key));
+  if (unknown !== undefined) throw new CommandError(`${unknown}: no such option; there are ${known.join(', ')}`);
+  const { language, filename, files } = options;
+  if (language !== undefined && language !== 'en' && language !== 'it') throw new CommandError('language: en or it');
+  if (filename !== undefined && (typeof filename !== 'string' || filename === '')) throw new CommandError('filename: a name');
+  for (const [name, content] of Object.entries(files ?? {}))
+    if (typeof content !== 'string' && !(content instanceof Uint8Array)) throw new CommandError(`${name}: neither a text nor a Uint8Array`);
+}
+
 /** What the command writes to its standard output, or to a `file`. Calls at the same time run one after another. */
 async function command(program: Program, text: string, options: Options, args: readonly string[], file?: string): Promise<string[]> {
   if (typeof text !== 'string') throw new TypeError('the program is no text');
+  checked(options);
   await load();
   const module = await loaded!;
   module.FS.mkdirTree(home);
@@ -169,7 +211,8 @@ export async function format(text: string, options: Options = {}): Promise<strin
 export async function run(text: string, options: RunOptions = {}): Promise<Run> {
   const args = options.trace ? ['--json', '--trace', trace] : ['--json'];
   const [json, events] = await command('isorun', text, options, args, options.trace ? trace : undefined);
-  const summary = parsed(json, (value): value is Run => typeof value === 'object' && value !== null && 'result' in value);
+  const ran = parsed(json, (value): value is Run => typeof value === 'object' && value !== null && 'result' in value);
+  const summary = { ...ran, file: options.filename ?? 'program.iso' };
   if (events === undefined) return summary;
   const lines = events.split('\n').filter((line) => line !== '');
   return { ...summary, trace: lines.map((line) => JSON.parse(line) as Record<string, unknown>) };

@@ -39,8 +39,11 @@ async function read(stream: ReadableStream<Uint8Array>, largest = Infinity): Pro
   return bytes;
 }
 
+/** Throws a LinkError where the program is too large to be read again. */
 export async function fragmentOf(program: string): Promise<string> {
-  const bytes = await read(streamOf(new TextEncoder().encode(program)).pipeThrough(new CompressionStream('deflate')));
+  const text = new TextEncoder().encode(program);
+  if (text.length > largestProgram) throw new LinkError('linkLarge'); // As whoever opens the link would hear.
+  const bytes = await read(streamOf(text).pipeThrough(new CompressionStream('deflate')));
   let binary = '';
   for (const byte of bytes) binary += String.fromCharCode(byte);
   return prefix + btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');

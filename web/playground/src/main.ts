@@ -196,7 +196,12 @@ class Page {
   }
 
   private async share(): Promise<void> {
-    const fragment = await fragmentOf(this.editor.text);
+    const text = this.editor.text;
+    const fragment = await fragmentOf(text).catch((failure: unknown) => {
+      if (!(failure instanceof LinkError)) throw failure;
+      return null;
+    });
+    if (fragment === null) { this.say(this.said.tooLargeToShare); return; }
     const link = location.href.replace(/#.*$/s, '') + fragment;
     if (link.length > longestLink) { this.say(filled(this.said.tooLong, link.length, longestLink)); return; }
     this.say('');
