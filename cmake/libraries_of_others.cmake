@@ -30,6 +30,8 @@ else()
   find_package(FastFloat 3.9 REQUIRED)
   find_package(CLI11 2.1 REQUIRED)
 endif()
+# Headers alone, without a package of CMake.
+isocnc_headers(isocnc_stb stb/stb_image.h)
 find_package(Threads REQUIRED)
 
 # fmt as a part of the programs, or the library of the system.

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -37,6 +38,7 @@
 #include "interpreter/system/terminal.h"
 #include "interpreter/system/user_language.h"
 #include "interpreter/text/unicode.h"
+#include "interpreter/tool_command.h"
 #include "interpreter/verification/verification_report.h"
 
 namespace isocnc::interpreter {
@@ -74,6 +76,7 @@ struct RunCommandOptions {
   std::optional<std::string> lift;
   configuration::ConfigurationSource source;
   std::optional<std::string> machine;
+  ToolCommandOptions tools;
 
   Language reader_language() const { return dialect::language_named(language).value_or(system::user_language()); }
   bool reads_stdin() const { return file == "-"; }
@@ -111,6 +114,8 @@ constexpr Text kWrongLift{"--lift takes a plain number of mm above 0, such as 50
 constexpr Text kNotLifted{"the raised program is not written: {}", "il programma alzato non viene scritto: {}"};
 constexpr Text kOfMadePrograms{"{} goes with --restart-at, --tool, --lift or --outline",
                                "{} va con --restart-at, --tool, --lift o --outline"};
+constexpr Text kNoProgram{"--import-tools, --export-tools and --new-machine run no program, such as {}",
+                          "--import-tools, --export-tools e --new-machine non eseguono programmi, come {}"};
 constexpr Text kCutsNothing{"there is no outline: the program has no feed move with a tool",
                             "non c'è un contorno: il programma non ha movimenti di lavoro con un utensile"};
 constexpr Text kNoWayAround{"no outline is written: on its way, {}; --clearance sets another height",
@@ -766,10 +771,10 @@ ExitStatus run_main(int argc, char** argv) {
              {"A mistake in the command or in an isocnc.json, or something could not be read or written.",
               "Un errore nel comando o in un isocnc.json, oppure qualcosa che non si è potuto leggere o scrivere."}}},
        .see_also = {"isolint", "isofmt"}});
-  program
-      .add_option("FILE", options.file, {" ", " "},
-                  {"The program, or - for standard input", "Il programma, o - per lo standard input"})
-      .required();
+  const command_line::ProgramOption file =
+      program.add_option("FILE", options.file, {" ", " "},
+                         {"The program, or - for standard input", "Il programma, o - per lo standard input"});
+  if (!is_about_tools(std::span(argv, static_cast<std::size_t>(argc)))) file.required();
   const command_line::ProgramOption trace =
       program.add_option("--trace", options.trace, command_line::kFileValue,
                          {"What happens, as JSON lines; - for standard output",
@@ -845,7 +850,13 @@ ExitStatus run_main(int argc, char** argv) {
   program.add_option("--approach-feed", options.approach_feed, {"F", "F"},
                      {"Restart: then feed down at most at this F (else\n1000); outline: go around at it",
                       "Ripresa: poi scende al più con questa F (altrimenti\n1000); contorno: gira con questa"});
+  add_tool_options(program, options.tools);
   if (const auto status = program.answer(argc, argv)) return *status;
+  if (options.tools.is_given()) {
+    if (options.file.empty()) return run_tool_command(options.tools, options.source, options.machine, options.language);
+    complain(dialect::format(kNoProgram, options.reader_language(), options.file));
+    return ExitStatus::Failure;
+  }
   if (const std::string_view lonely = option_of_made_programs(options); !lonely.empty() && !options.makes_program()) {
     complain(dialect::format(kOfMadePrograms, options.reader_language(), lonely));
     return ExitStatus::Failure;

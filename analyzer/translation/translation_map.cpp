@@ -13,8 +13,11 @@
 #include "interpreter/system/paths.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/text/unicode.h"
+#include "interpreter/tool_library/tool_map.h"
 
 namespace isocnc::translation {
+
+namespace map_problems = tool_library::map_problems;
 
 using configuration::JsonMember;
 using configuration::JsonValue;
@@ -30,12 +33,6 @@ constexpr Text kNeedsPoint{"three numbers are needed here, [X, Y, Z] in mm",
                            "qui ci vogliono tre numeri, [X, Y, Z] in mm"};
 constexpr Text kNeedsClearance{"a length above 0 is needed here, in mm", "qui ci vuole una lunghezza sopra 0, in mm"};
 constexpr Text kNoToolNumber{"{0} is no tool number, such as \"1\"", "{0} non è un numero di utensile, come \"1\""};
-constexpr Text kNoToolPlace{"{0} is no place of a tool: six digits for head, holder and tool, such as \"101001\"",
-                            "{0} non è un posto di utensile: sei cifre per testa, portautensile e utensile, come "
-                            "\"101001\""};
-constexpr Text kPlaceIncomplete{"{0}: a tool needs a holder, and a holder a head",
-                                "{0}: un utensile vuole un portautensile, e un portautensile una testa"};
-constexpr Text kTwoAtOnePlace{"tool {0} is at {1} already", "a {1} c'è già l'utensile {0}"};
 constexpr Text kNoZeroName{"{0} is none of G54 to G59, G59.1 to G59.3", "{0} non è fra G54 e G59, o fra G59.1 e G59.3"};
 constexpr Text kNoReferenceName{"{0} is neither G28 nor G30", "{0} non è né G28 né G30"};
 constexpr Text kNoFunctionName{"{0} is no M that may be mapped: M00 to M999 but M02 to M06, M30, M98 and M99",
@@ -43,8 +40,6 @@ constexpr Text kNoFunctionName{"{0} is no M that may be mapped: M00 to M999 but 
                                "M99"};
 constexpr Text kNoShopFunction{"{0} is no M of the shop: M1 or M7 to M999, or null to leave it out",
                                "{0} non è una M dell'officina: M1 o da M7 a M999, o null per ometterla"};
-constexpr Text kNoChoiceOf{"{0} is not one of {1}", "{0} non è fra {1}"};
-
 constexpr double kFarthest = 1e6;  // mm.
 
 /// The whole number after a letter, `M08`; -1 if the text is none.
@@ -93,12 +88,11 @@ class MapReader {
     std::map<std::string, std::size_t> seen;
     for (const JsonMember& member : value.members) {
       if (!seen.try_emplace(member.key, member.at).second)
-        fail(member.at, key.empty() ? member.key : key + "." + member.key, kTwiceInMap);
+        fail(member.at, key.empty() ? member.key : key + "." + member.key, map_problems::kTwiceInMap);
       else
         read_member(member);
     }
   }
-  static constexpr Text kTwiceInMap{"this key is in the map already", "questa chiave è già nella mappa"};
 
   void read_key(const JsonMember& member) {
     const auto each = [&](auto read_member) { each_member(member.value, member.key, read_member); };
@@ -127,21 +121,13 @@ class MapReader {
       fail(value.at, key, kNeedsText);
       return std::nullopt;
     }
-    std::string code = value.string;
-    if (!code.empty() && (code.front() == 'T' || code.front() == 't')) code.erase(0, 1);
-    const bool is_code = code.size() == 6 && code.find_first_not_of("0123456789") == std::string::npos;
-    if (!is_code) {
-      fail(value.at, key, kNoToolPlace, {configuration::shortened(value.string)});
+    const auto place = tool_library::read_tool_place(value.string);
+    if (const Text* const why = std::get_if<Text>(&place)) {
+      fail(value.at, key, *why, {configuration::shortened(value.string)});
       return std::nullopt;
     }
-    const bool has_head = code[0] != '0';
-    const bool has_holder = code.substr(1, 2) != "00";
-    const bool has_tool = code.substr(3) != "000";
-    if ((has_tool && !has_holder) || (has_holder && !has_head)) {
-      fail(value.at, key, kPlaceIncomplete, {code});
-      return std::nullopt;
-    }
-    return code;
+    const auto& code = std::get<execution::ToolCode>(place);
+    return fmt::format("{}{:02}{:03}", code.head, code.holder, code.tool);
   }
 
   void read_tool(const JsonMember& member) {
@@ -151,12 +137,12 @@ class MapReader {
     const auto result = std::from_chars(member.key.data(), end, number);
     if (result.ec != std::errc{} || result.ptr != end || number < 0)
       return fail(member.at, key, kNoToolNumber, {configuration::shortened(member.key)});
-    if (map_.tools.contains(number)) return fail(member.at, key, kTwiceInMap);  // "1" and "01".
+    if (map_.tools.contains(number)) return fail(member.at, key, map_problems::kTwiceInMap);  // "1" and "01".
     const auto code = tool_place(member.value, key);
     if (!code) return;
     for (const auto& [other, place] : map_.tools)
       if (place == *code && *code != "000000")
-        return fail(member.value.at, key, kTwoAtOnePlace, {std::to_string(other), *code});
+        return fail(member.value.at, key, map_problems::kTwoAtOnePlace, {std::to_string(other), *code});
     map_.tools[number] = *code;
   }
 
@@ -208,7 +194,7 @@ class MapReader {
     if (member.value.kind != JsonValue::Kind::String) return fail(member.value.at, member.key, kNeedsText);
     if (member.value.string == choices[0]) return set(false);
     if (member.value.string == choices[1]) return set(true);
-    fail(member.value.at, member.key, kNoChoiceOf,
+    fail(member.value.at, member.key, map_problems::kNoChoiceOf,
          {configuration::shortened(member.value.string), fmt::format("{}, {}", choices[0], choices[1])});
   }
 

@@ -134,6 +134,7 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   bool leaf(JsonValue value) {
     value.at = token_start();
+    value.end = end_;
     add(std::move(value));
     return true;
   }
@@ -149,6 +150,7 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   bool close() {
     token_start();
+    open_.back()->end = end_;
     open_.pop_back();
     return true;
   }

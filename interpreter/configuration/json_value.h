@@ -13,12 +13,13 @@ namespace isocnc::configuration {
 
 struct JsonMember;
 
-/// A value of a JSON text, with its start position.
+/// A value of a JSON text, with its place.
 struct JsonValue {
   enum class Kind : std::uint8_t { Null, Boolean, Number, String, List, Object };
 
   Kind kind = Kind::Null;
-  std::size_t at = 0;  ///< Byte offset, from 0.
+  std::size_t at = 0;   ///< Byte offset, from 0.
+  std::size_t end = 0;  ///< That after its last byte.
   bool boolean = false;
   double number = 0;
   std::string string;

@@ -73,6 +73,7 @@ LIBRARIES = [
     Debian("Eigen", "libeigen3-dev", "MPL-2.0 AND BSD-3-Clause", "https://eigen.tuxfamily.org/"),
     Debian("CLI11", "libcli11-dev", "BSD-3-Clause", "https://github.com/CLIUtils/CLI11"),
     Debian("fmt", "libfmt-dev", "MIT", "https://fmt.dev/"),
+    Debian("stb", "libstb-dev", "MIT OR Unlicense", "https://github.com/nothings/stb"),
     Debian("fast_float", "libfast-float-dev", "MIT OR Apache-2.0", "https://github.com/fastfloat/fast_float"),
 ]
 COMPILERS = {

@@ -37,6 +37,7 @@ const std::vector<Translation> kPages = {{"docs/README.md", "docs/it/README.md"}
                                          {"docs/posts.md", "docs/it/posts.md"},
                                          {"docs/machine.md", "docs/it/macchina.md"},
                                          {"docs/configuration.md", "docs/it/configurazione.md"},
+                                         {"docs/tools.md", "docs/it/utensili.md"},
                                          {"docs/house-rules.md", "docs/it/regole.md"},
                                          {"docs/dialect.md", "docs/it/dialetto.md"},
                                          {"docs/rules.md", "docs/it/codici.md"},

@@ -1,0 +1,459 @@
+#include "interpreter/tool_library/columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
+#include "interpreter/configuration/keys.h"
+#include "interpreter/tool_library/library_reader.h"
+#include "interpreter/tool_library/tool_map.h"
+
+namespace isocnc::tool_library {
+
+using configuration::Configuration;
+using configuration::Key;
+using configuration::KeyKind;
+using configuration::Tool;
+using dialect::Language;
+using dialect::Text;
+
+namespace {
+
+constexpr Text kNoHeader{"the first line of a table names its columns, such as T;name;length;diameter",
+                         "la prima riga di una tabella dà i nomi alle colonne, per esempio T;nome;lunghezza;diametro"};
+constexpr Text kTwoColumns{"two columns are called {0}", "due colonne si chiamano {0}"};
+constexpr Text kOpenQuote{"a quote without its closing one", "virgolette senza quelle di chiusura"};
+constexpr Text kNoNumber{"{0} is no number", "{0} non è un numero"};
+constexpr Text kOutOfRange{"{0} is outside of what {1} may be", "{0} è fuori da ciò che {1} può essere"};
+constexpr Text kNoChoice{"{0} is not one of {1}", "{0} non è fra {1}"};
+constexpr Text kNoProfile{"an outline is pairs of numbers, z and radius: 0 1.5 3 4",
+                          "un contorno è coppie di numeri, z e raggio: 0 1.5 3 4"};
+
+// Columns that are no keys of isocnc.json.
+constexpr std::string_view kPlace = "T";
+constexpr std::string_view kNumber = "number";
+constexpr std::string_view kDiameter = "diameter";
+constexpr std::string_view kUnit = "unit";
+constexpr Text kMeasuredLength{"measured length", "lunghezza misurata"};
+constexpr Text kMeasuredRadius{"measured radius", "raggio misurato"};
+
+/// Other names of columns, in small letters.
+struct Alias {
+  std::string_view written;
+  std::string_view column;
+};
+constexpr Alias kAliases[] = {{"t", kPlace},
+                              {"place", kPlace},
+                              {"posto", kPlace},
+                              {"number", kNumber},
+                              {"numero", kNumber},
+                              {"nr", kNumber},
+                              {"diameter", kDiameter},
+                              {"diametro", kDiameter},
+                              {"unit", kUnit},
+                              {"units", kUnit},
+                              {"unit\xC3\xA0", kUnit},
+                              {"unita", kUnit},
+                              {"description", "name"},
+                              {"descrizione", "name"},
+                              {"nome", "name"},
+                              {"testa", "head"},
+                              {"portautensile", "holder"},
+                              {"utensile", "tool"},
+                              {"lunghezza", "length"},
+                              {"raggio", "radius"},
+                              {"forma", "shape"},
+                              {"profilo", "profile"},
+                              {"raggio spigolo", "cornerRadius"},
+                              {"corner radius", "cornerRadius"},
+                              {"angolo", "tipAngle"},
+                              {"tip angle", "tipAngle"},
+                              {"lunghezza tagliente", "cutLength"},
+                              {"cut length", "cutLength"},
+                              {"passata massima", "maxDepth"},
+                              {"max depth", "maxDepth"},
+                              {"gambo", "shank"},
+                              {"mandrino", "body"},
+                              {"measured length", kMeasuredLength.en},
+                              {"lunghezza misurata", kMeasuredLength.en},
+                              {"measured radius", kMeasuredRadius.en},
+                              {"raggio misurato", kMeasuredRadius.en}};
+
+std::string in_small_letters(std::string_view text) {
+  std::string small(text);
+  for (char& letter : small) letter = static_cast<char>(letter >= 'A' && letter <= 'Z' ? letter + ('a' - 'A') : letter);
+  return small;
+}
+
+/// What a column is called here, however it is written; empty if nothing is.
+std::string_view column_called(std::string_view written) {
+  std::string small = in_small_letters(written);
+  if (const std::size_t unit = small.find(" ("); unit != std::string::npos) small.resize(unit);  // `length (mm)`
+  for (const Key* key : tool_keys())
+    if (in_small_letters(key->name()) == small) return key->name();
+  for (const Alias& alias : kAliases)
+    if (alias.written == small) return alias.column;
+  return {};
+}
+
+/// Whether a spreadsheet would take a cell that starts so for a formula. A text that does is written after an
+/// apostrophe.
+bool is_formula_start(char letter) { return std::string_view("=+-@").find(letter) != std::string_view::npos; }
+
+/// A cell with its place in the text.
+struct CsvCell {
+  std::string text;
+  std::size_t at = 0;
+};
+using CsvRow = std::vector<CsvCell>;
+
+/// Divides a table into rows without the empty ones. Quoted cells may hold separators and ends of lines; "" is a quote
+/// in them.
+class RowReader {
+ public:
+  RowReader(LibraryFile& file, char separator) : file_(file), text_(file.text()), separator_(separator) {}
+
+  /// The next row; none at the end, and after a mistake.
+  std::optional<CsvRow> next() {
+    while (at_ < text_.size()) {
+      CsvRow row;
+      do {
+        std::optional<CsvCell> cell = next_cell();
+        if (!cell) return std::nullopt;
+        row.push_back(*std::move(cell));
+      } while (take(separator_));
+      take('\r');
+      take('\n');
+      if (std::any_of(row.begin(), row.end(), [](const CsvCell& cell) { return !cell.text.empty(); })) return row;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool take(char expected) {
+    const bool is_there = at_ < text_.size() && text_[at_] == expected;
+    if (is_there) ++at_;
+    return is_there;
+  }
+
+  std::optional<CsvCell> next_cell() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || (text_[at_] == '\t' && separator_ != '\t'))) ++at_;
+    CsvCell cell{{}, at_};
+    if (take('"')) {
+      while (true) {
+        const std::size_t quote = text_.find('"', at_);
+        if (quote == std::string_view::npos) {
+          file_.fail(cell.at, {}, kOpenQuote);
+          at_ = text_.size();
+          return std::nullopt;
+        }
+        cell.text += text_.substr(at_, quote - at_);
+        at_ = quote + 1;
+        if (!take('"')) break;
+        cell.text += '"';
+      }
+    }
+    const std::size_t end = std::min(text_.find_first_of(std::string{separator_, '\r', '\n'}, at_), text_.size());
+    cell.text += text_.substr(at_, end - at_);
+    cell.text.resize(cell.text.find_last_not_of(" \t") + 1);
+    if (cell.text.size() > 1 && cell.text.front() == '\'' && is_formula_start(cell.text[1])) cell.text.erase(0, 1);
+    at_ = end;
+    return cell;
+  }
+
+  LibraryFile& file_;
+  std::string_view text_;
+  char separator_;
+  std::size_t at_ = 0;
+};
+
+/// The separator that the first line has most of.
+char separator_of(std::string_view text) {
+  const std::string_view header = text.substr(0, text.find('\n'));
+  char best = ';';
+  std::ptrdiff_t most = 0;
+  for (const char separator : {';', '\t', ','}) {
+    const std::ptrdiff_t count = std::count(header.begin(), header.end(), separator);
+    if (count <= most) continue;
+    best = separator;
+    most = count;
+  }
+  return best;
+}
+
+/// A number with a decimal point, or with a comma.
+std::optional<double> number_in(std::string text) {
+  if (std::count(text.begin(), text.end(), ',') == 1 && text.find('.') == std::string::npos) text[text.find(',')] = '.';
+  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  double number = 0;
+  const auto read = fast_float::from_chars(begin, text.data() + text.size(), number);
+  const bool is_number = read.ec == std::errc{} && read.ptr == text.data() + text.size() && std::isfinite(number);
+  return is_number ? std::optional(number) : std::nullopt;
+}
+
+/// Reads the cells of one tool.
+class ToolRow {
+ public:
+  ToolRow(LibraryFile& file, double millimeters) : file_(file), millimeters_(millimeters) {
+    configuration_.machine.tools.emplace(1);
+  }
+
+  /// The unit of this tool, where its row says one.
+  void read_unit(const CsvCell& cell) {
+    const std::string unit = in_small_letters(cell.text);
+    if (unit == "mm" || unit == "millimeters") {
+      millimeters_ = 1;
+    } else if (unit == "inch" || unit == "inches" || unit == "in") {
+      millimeters_ = kInch;
+    } else if (!unit.empty()) {
+      file_.fail(cell.at, std::string(kUnit), problems::kUnknownUnit,
+                 {configuration::shortened(cell.text), std::string("mm, inch")});
+    }
+  }
+
+  void read(std::string_view column, const CsvCell& cell) {
+    if (cell.text.empty() || column == kUnit) return;
+    if (column == kNumber) {
+      number_ = cell.text;
+    } else if (column == kPlace) {
+      read_place(cell);
+    } else if (column == kDiameter) {
+      if (const auto diameter = length("diameter", cell)) tool().radius = tidy(*diameter / 2);
+    } else if (column == kMeasuredLength.en) {
+      measured_length_ = length(column, cell);
+    } else if (column == kMeasuredRadius.en) {
+      measured_radius_ = length(column, cell);
+    } else if (const Key* const key = tool_key(column)) {
+      read_key(*key, cell);
+    }
+  }
+
+  LibraryTool take() {
+    if (measured_length_) tool().length = measured_length_;
+    if (measured_radius_) tool().radius = measured_radius_;
+    const execution::ToolCode& code = tool().code;
+    return {.number = std::move(number_),
+            .tool = tool(),
+            .has_place = code.head > 0 && code.holder > 0 && code.tool > 0,
+            .holder = {},
+            .kind_without_shape = {}};
+  }
+
+ private:
+  Tool& tool() { return configuration_.machine.tools->front(); }
+
+  void fail(std::string_view column, const CsvCell& cell, const Text& why,
+            std::vector<configuration::Named> more = {}) {
+    more.insert(more.begin(), configuration::shortened(cell.text));
+    file_.fail(cell.at, std::string(column), why, std::move(more));
+  }
+
+  std::optional<double> length(std::string_view column, const CsvCell& cell) {
+    const std::optional<double> number = number_in(cell.text);
+    if (number && *number == 0) return std::nullopt;
+    const double length = tidy(number.value_or(0) * millimeters_);
+    if (length > 0 && length <= kLongest) return length;
+    fail(column, cell, number ? problems::kNeedsLength : kNoNumber);
+    return std::nullopt;
+  }
+
+  void read_place(const CsvCell& cell) {
+    const auto place = read_tool_place(cell.text);
+    if (const auto* const code = std::get_if<execution::ToolCode>(&place)) {
+      tool().code = *code;
+    } else {
+      fail(kPlace, cell, std::get<Text>(place));
+    }
+  }
+
+  void read_key(const Key& key, const CsvCell& cell) {
+    using Slot = configuration::ValueSlot;
+    const Slot slot = key.slot(configuration_, {0, 0});
+    if (key.kind == KeyKind::Text) {
+      *std::get<std::string*>(slot) = cell.text;
+    } else if (key.kind == KeyKind::Choice) {
+      const std::string choice = in_small_letters(cell.text);
+      if (std::find(key.choices.begin(), key.choices.end(), choice) == key.choices.end())
+        return fail(key.name(), cell, kNoChoice, {fmt::format("{}", fmt::join(key.choices, ", "))});
+      *std::get<std::string*>(slot) = choice;
+    } else if (key.kind == KeyKind::Rows) {
+      read_profile(cell);
+    } else if (const std::optional<double> number = number_in(cell.text); !number) {
+      fail(key.name(), cell, kNoNumber);
+    } else if (int* const* const whole = std::get_if<int*>(&slot)) {
+      if (*number != std::floor(*number) || *number < key.range.minimum || *number > key.range.maximum)
+        return fail(key.name(), cell, kOutOfRange, {std::string(key.name())});
+      **whole = static_cast<int>(*number);
+    } else {
+      const double value = key.unit.en == "mm" ? tidy(*number * millimeters_) : *number;
+      if (value == 0) return;  // As libraries write what they leave open.
+      if (value < key.range.minimum || value > key.range.maximum)
+        return fail(key.name(), cell, kOutOfRange, {std::string(key.name())});
+      *std::get<std::optional<double>*>(slot) = value;
+    }
+  }
+
+  void read_profile(const CsvCell& cell) {
+    configuration::NumberRows rows;
+    bool is_whole = true;
+    for (std::size_t at = cell.text.find_first_not_of(' '); at != std::string::npos;) {
+      const std::size_t end = std::min(cell.text.find(' ', at), cell.text.size());
+      const std::optional<double> number = number_in(cell.text.substr(at, end - at));
+      if (!number || *number < 0 || *number > kLongest) return fail("profile", cell, kNoProfile);
+      if (is_whole) rows.emplace_back();
+      rows.back().push_back(tidy(*number * millimeters_));
+      is_whole = !is_whole;
+      at = cell.text.find_first_not_of(' ', end);
+    }
+    if (!is_whole || rows.size() < 2) return fail("profile", cell, kNoProfile);
+    tool().profile = std::move(rows);
+  }
+
+  LibraryFile& file_;
+  double millimeters_;
+  Configuration configuration_;  // Keys write into it.
+  std::string number_;
+  std::optional<double> measured_length_;
+  std::optional<double> measured_radius_;
+};
+
+/// Which column each cell of a row belongs to; empty for those that are not read.
+std::vector<std::string_view> read_header(const CsvRow& header, LibraryFile& file, std::vector<std::string>& ignored) {
+  std::vector<std::string_view> columns;
+  for (const CsvCell& cell : header) {
+    const std::string_view column = column_called(cell.text);
+    if (column.empty() && !cell.text.empty()) ignored.push_back(configuration::shortened(cell.text));
+    if (!column.empty() && std::find(columns.begin(), columns.end(), column) != columns.end())
+      file.fail(cell.at, {}, kTwoColumns, {std::string(column)});
+    columns.push_back(column);
+  }
+  if (std::all_of(columns.begin(), columns.end(), [](std::string_view column) { return column.empty(); }))
+    file.fail(header.front().at, {}, kNoHeader);
+  return columns;
+}
+
+/// Writes cells as spreadsheets of a language read them.
+class CellWriter {
+ public:
+  explicit CellWriter(Language language)
+      : separator_(language == Language::Italian ? ';' : ','), is_comma_decimal_(language == Language::Italian) {}
+
+  void add(std::string_view text) {
+    if (!is_first_) text_ += separator_;
+    is_first_ = false;
+    // What a spreadsheet would take for a formula stays a text.
+    const bool is_formula = !text.empty() && is_formula_start(text.front());
+    if (!is_formula && text.find_first_of("\",;\t\r\n") == std::string_view::npos) {
+      text_ += text;
+      return;
+    }
+    text_ += '"';
+    if (is_formula) text_ += '\'';
+    for (const char letter : text) text_ += letter == '"' ? "\"\"" : std::string(1, letter);
+    text_ += '"';
+  }
+
+  void add(std::optional<double> number) {
+    std::string digits = number ? fmt::format("{}", *number) : "";
+    if (is_comma_decimal_) std::replace(digits.begin(), digits.end(), '.', ',');
+    if (!is_first_) text_ += separator_;
+    is_first_ = false;
+    text_ += digits.find(separator_) == std::string::npos ? digits : fmt::format("\"{}\"", digits);
+  }
+
+  void end_row() {
+    text_ += "\r\n";
+    is_first_ = true;
+  }
+
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+  char separator_;
+  bool is_comma_decimal_;
+  bool is_first_ = true;
+};
+
+std::string place_of(const Tool& tool) {
+  return fmt::format("T{}{:02}{:03}", tool.code.head, tool.code.holder, tool.code.tool);
+}
+
+}  // namespace
+
+std::vector<LibraryTool> read_columns(LibraryFile& file, double millimeters, std::vector<std::string>& ignored) {
+  RowReader rows(file, separator_of(file.text()));
+  const std::optional<CsvRow> header = rows.next();
+  if (!header) {
+    if (file.mistakes().empty()) file.fail(0, {}, kNoHeader);
+    return {};
+  }
+  const std::vector<std::string_view> columns = read_header(*header, file, ignored);
+  if (!file.mistakes().empty()) return {};
+  std::vector<LibraryTool> tools;
+  while (const std::optional<CsvRow> row = rows.next()) {
+    ToolRow tool(file, millimeters);
+    const std::size_t count = std::min(row->size(), columns.size());
+    for (std::size_t i = 0; i < count; ++i)
+      if (columns[i] == kUnit) tool.read_unit((*row)[i]);
+    for (std::size_t i = 0; i < count; ++i) tool.read(columns[i], (*row)[i]);
+    tools.push_back(tool.take());
+  }
+  return tools;
+}
+
+std::string columns_of(const std::vector<Tool>& tools, Language language) {
+  const std::vector<const Key*> keys = tool_keys();
+  const auto is_place = [](const Key* key) { return key->is_required; };
+  CellWriter cells(language);
+  cells.add(kPlace);
+  for (const Key* key : keys)
+    if (!is_place(key)) cells.add(key->name());
+  cells.end_row();
+  Configuration configuration;  // Keys read from it.
+  for (const Tool& tool : tools) {
+    configuration.machine.tools = {tool};
+    cells.add(place_of(tool));
+    for (const Key* key : keys) {
+      if (is_place(key)) continue;
+      const configuration::ValueSlot slot = key->slot(configuration, {0, 0});
+      if (const auto* const text = std::get_if<std::string*>(&slot)) {
+        cells.add(**text);
+      } else if (const auto* const rows = std::get_if<std::optional<configuration::NumberRows>*>(&slot)) {
+        std::string numbers;
+        if (**rows)
+          for (const std::vector<double>& row : ***rows)
+            numbers += fmt::format("{}{} {}", numbers.empty() ? "" : " ", row[0], row[1]);
+        cells.add(numbers);
+      } else {
+        cells.add(*std::get<std::optional<double>*>(slot));
+      }
+    }
+    cells.end_row();
+  }
+  return cells.take();
+}
+
+std::string presetter_list(const std::vector<Tool>& tools, Language language) {
+  constexpr Text kHeads[] = {{"name", "nome"}, {"length", "lunghezza"}, {"radius", "raggio"}};
+  CellWriter cells(language);
+  cells.add(kPlace);
+  for (const Text& head : kHeads) cells.add(head.in(language));
+  cells.add(kMeasuredLength.in(language));
+  cells.add(kMeasuredRadius.in(language));
+  cells.end_row();
+  for (const Tool& tool : tools) {
+    cells.add(place_of(tool));
+    cells.add(tool.name);
+    cells.add(tool.length);
+    cells.add(tool.radius);
+    cells.add(std::string_view());
+    cells.add(std::string_view());
+    cells.end_row();
+  }
+  return cells.take();
+}
+
+}  // namespace isocnc::tool_library

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/configuration/configuration.h"
+
+namespace isocnc::tool_library {
+
+/// A tool as the library of another program describes it. Lengths in mm, rounded to 10 nm.
+struct LibraryTool {
+  std::string number;  ///< By which the library counts it; empty: none.
+  configuration::Tool
+      tool;  ///< Its name and the keys of `machine.tools` that the library knows; the code only with `has_place`.
+  bool has_place = false;                          ///< Whether the library itself says head, holder and tool.
+  std::optional<configuration::NamedRows> holder;  ///< Named by `tool.body`, as in `machine.holders`.
+  std::string kind_without_shape;  ///< What the library calls a tool that no key can describe, such as a thread mill.
+};
+
+/// What a library holds, or what is wrong with it.
+struct Library {
+  std::vector<LibraryTool> tools;     ///< In the order of the file.
+  std::vector<std::string> ignored;   ///< Columns of a table that nothing here is called by.
+  std::vector<std::string> mistakes;  ///< One a line, with file and place. Where there is one, no tool counts.
+};
+
+}  // namespace isocnc::tool_library

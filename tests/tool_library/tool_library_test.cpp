@@ -1,0 +1,408 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "interpreter/configuration/read.h"
+#include "interpreter/tool_library/columns.h"
+#include "interpreter/tool_library/new_machine.h"
+#include "interpreter/tool_library/read_library.h"
+#include "interpreter/tool_library/tool_import.h"
+#include "tests/support/random.h"
+#include "tests/support/temporary_folder.h"
+
+namespace isocnc::tool_library {
+namespace {
+
+using configuration::MachineConfiguration;
+using dialect::Language;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Library read(const std::string& name, std::string_view text) {
+  return read_library_text(name, std::string(text), false, Language::English);
+}
+
+MachineConfiguration machine_of(std::string_view text) {
+  const auto read = configuration::read_configuration(text, "/shop");
+  EXPECT_THAT(read.mistakes, IsEmpty());
+  return read.configuration.machine;
+}
+
+/// Where the tools of a library stand: number or name, and place.
+ToolMap map_of(const std::vector<std::pair<std::string, int>>& places) {
+  ToolMap map;
+  for (const auto& [key, place] : places) map.places.emplace(key, execution::tool_code(place));
+  return map;
+}
+
+/// The import as people see it, or why it is refused.
+std::string shown(const MachineConfiguration& machine, const Library& library, const ToolMap& map) {
+  EXPECT_THAT(library.mistakes, IsEmpty());
+  const auto import = import_tools(machine, library, {.map = map});
+  if (const auto* const why = std::get_if<std::string>(&import)) return *why;
+  return shown_import(std::get<ToolImport>(import), Language::English);
+}
+
+/// A library with one tool, in the words of its program, and what comes in at T101001. The lengths are computed by hand
+/// from the meaning of the library's own names.
+struct Case {
+  std::string name;
+  std::string file;
+  std::string text;
+  std::string expected;
+};
+
+class ReadsTools : public testing::TestWithParam<Case> {};
+
+TEST_P(ReadsTools, InTheWordsOfTheirProgram) {
+  const Library library = read(GetParam().file, GetParam().text);
+  EXPECT_EQ(shown({}, library, map_of({{"1", 101001}, {"mill", 101001}})).substr(0, GetParam().expected.size()),
+            GetParam().expected);
+}
+
+std::string fusion(std::string_view type, std::string_view geometry, std::string_view more = "") {
+  return R"({"data": [{"description": "mill", "unit": "millimeters", "type": ")" + std::string(type) +
+         R"(", "geometry": {)" + std::string(geometry) + R"(}, "post-process": {"number": 5})" + std::string(more) +
+         "}]}";
+}
+
+std::string freecad(std::string_view shape, std::string_view parameters) {
+  return R"({"version": 2, "name": "mill", "shape": ")" + std::string(shape) + R"(.fcstd", "parameter": {)" +
+         std::string(parameters) + "}}";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Programs, ReadsTools,
+    testing::Values(
+        Case{"fusion_flat", "a.json",
+             fusion("flat end mill", R"("DC": 20, "LCF": 40, "SFDM": 18, "assemblyGaugeLength": 110)"),
+             "+ T101001 \"mill\": length 110, radius 10, shape \"flat\", cutLength 40, shank 18\n"},
+        Case{"fusion_ball", "a.json", fusion("ball end mill", R"("DC": 6, "assemblyGaugeLength": 80)"),
+             "+ T101001 \"mill\": length 80, radius 3, shape \"ball\"\n"},
+        Case{"fusion_bull", "a.json", fusion("bull nose end mill", R"("DC": 12, "RE": 1.5, "assemblyGaugeLength": 80)"),
+             "+ T101001 \"mill\": length 80, radius 6, shape \"bull\", cornerRadius 1.5\n"},
+        Case{"fusion_bull_without_corner", "a.json",
+             fusion("bull nose end mill", R"("DC": 12, "RE": 0, "assemblyGaugeLength": 80)"),
+             "+ T101001 \"mill\": length 80, radius 6, shape \"flat\"\n"},
+        Case{"fusion_drill", "a.json", fusion("drill", R"("DC": 8, "SIG": 118, "assemblyGaugeLength": 80)"),
+             "+ T101001 \"mill\": length 80, radius 4, shape \"drill\", tipAngle 118\n"},
+        // TA is the angle to the axis; half of what V bits are called by.
+        Case{"fusion_chamfer", "a.json", fusion("chamfer mill", R"("DC": 12, "TA": 45, "assemblyGaugeLength": 80)"),
+             "+ T101001 \"mill\": length 80, radius 6, shape \"cone\", tipAngle 90\n"},
+        Case{"fusion_blunt_chamfer", "a.json",
+             fusion("chamfer mill", R"("DC": 12, "TA": 45, "tip-diameter": 2, "assemblyGaugeLength": 80)"),
+             "+ T101001 \"mill\": length 80, radius 6, profile [[0, 1], [5, 6]]\n"},
+        Case{"fusion_taper", "a.json",
+             fusion("tapered mill", R"("DC": 2, "TA": 45, "LCF": 10, "assemblyGaugeLength": 80)"),
+             "+ T101001 \"mill\": length 80, radius 11, profile [[0, 1], [10, 11]], cutLength 10\n"},
+        Case{"fusion_slot", "a.json",
+             fusion("slot mill", R"("DC": 60, "LCF": 4, "SFDM": 16, "assemblyGaugeLength": 80)"),
+             "+ T101001 \"mill\": length 80, radius 30, shape \"disc\", cutLength 4, shank 16\n"},
+        Case{"fusion_dovetail", "a.json", fusion("dovetail mill", R"("DC": 12, "assemblyGaugeLength": 80)"),
+             "+ T101001 \"mill\": length 80, radius 6\n    no shape is known for what the library calls dovetail "
+             "mill\n"},
+        // 1 in of holder below the gauge line of 30 mm, with 20 mm more than that inside the spindle; the tool in
+        // inches.
+        Case{
+            "fusion_holder", "a.json",
+            R"({"data": [{"description": "mill", "unit": "inches", "type": "flat end mill", "geometry": {"DC": 0.5, "LB": 2}, "post-process":
+             {"number": 1}, "holder": {"description": "ER", "unit": "millimeters", "gaugeLength": 30, "segments": [
+             {"height": 20, "lower-diameter": 30, "upper-diameter": 40}, {"height": 20, "lower-diameter": 40, "upper-diameter": 60}]}}]})",
+            "+ holder \"ER\": [[20, 30, 40], [10, 40, 50]]\n"
+            "+ T101001 \"mill\": length 80.8, radius 6.35, shape \"flat\", body \"ER\"\n"},
+        Case{"fusion_without_length", "a.json", fusion("flat end mill", R"("DC": 20, "LCF": 40)"),
+             "+ T101001 \"mill\": radius 10, cutLength 40\n    its shape is left out, since its length from the "
+             "spindle nose is not known\n"},
+        Case{"freecad_end_mill", "a.fctb",
+             freecad("endmill", R"("Diameter": "5.0000 mm", "CuttingEdgeHeight": "30,0 mm", "Length": "50 mm")"),
+             "+ T101001 \"mill\": radius 2.5, cutLength 30\n"},
+        Case{"freecad_inches", "a.fctb", freecad("endmill", R"("Diameter": "0.2500 in")"),
+             "+ T101001 \"mill\": radius 3.175\n"},
+        Case{
+            "camotics", "a.json",
+            R"({"1": {"units": "metric", "shape": "cylindrical", "length": 20, "diameter": 3, "description": "mill"}})",
+            "+ T101001 \"mill\": radius 1.5, cutLength 20\n"},
+        Case{
+            "camotics_project", "a.camotics",
+            R"({"units": "metric", "tools": {"1": {"units": "imperial", "shape": "ballnose", "length": 1, "diameter": 0.5}}})",
+            "+ T101001: radius 6.35, cutLength 25.4\n"},
+        Case{"linuxcnc", "a.tbl", "; a table\nT1 P2 D+6.350 Z+40.5 ;mill\n",
+             "+ T101001 \"mill\": length 40.5, radius 3.175\n"},
+        Case{"linuxcnc_offset_from_another_tool", "a.tbl", "T1 P2 D6 Z-3 ;mill\n", "+ T101001 \"mill\": radius 3\n"},
+        Case{"csv", "a.csv", "T,name,length,diameter,shape\nT101001,mill,100,20,flat\n",
+             "+ T101001 \"mill\": length 100, radius 10, shape \"flat\"\n"},
+        Case{"csv_italian", "a.csv",
+             "\xEF\xBB\xBFtesta;portautensile;utensile;nome;lunghezza (mm);raggio\r\n1;1;1;\"a;b\"\"c\";100,5;10\r\n",
+             "+ T101001 \"a;b\\\"c\": length 100.5, radius 10\n"},
+        Case{"csv_tabs_inches", "a.tsv", "number\tname\tlength\tradius\tunit\n1\tmill\t4\t0.5\tinch\n",
+             "+ T101001 \"mill\": length 101.6, radius 12.7\n"},
+        Case{"csv_of_windows", "a.csv", "T;nome\nT101001;citt\xE0\n", "+ T101001 \"citt\xC3\xA0\"\n"},
+        Case{"presetter", "a.csv",
+             "T;nome;lunghezza;raggio;lunghezza misurata;raggio misurato\nT101001;mill;100;10;99,87;9,98\n",
+             "+ T101001 \"mill\": length 99.87, radius 9.98\n"}),
+    [](const auto& tested) { return tested.param.name; });
+
+// FreeCAD's shapes need a length that it does not know: the machine has it.
+TEST(ToolImport, TakesTheLengthOfTheMachine) {
+  const MachineConfiguration machine = machine_of(
+      R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "name": "mill", "length": 100, "radius": 3}]}})");
+  const auto imported = [&](std::string_view shape, std::string_view parameters) {
+    return shown(machine, read("a.fctb", freecad(shape, parameters)), map_of({{"mill", 101001}}));
+  };
+  EXPECT_THAT(imported("endmill", R"("Diameter": "6 mm")"), HasSubstr("~ T101001 \"mill\": shape \"flat\"\n"));
+  EXPECT_THAT(imported("ballend", R"("Diameter": "6 mm")"), HasSubstr("~ T101001 \"mill\": shape \"ball\"\n"));
+  EXPECT_THAT(imported("bullnose", R"("Diameter": "6 mm", "CornerRadius": "1 mm")"),
+              HasSubstr("shape \"bull\", cornerRadius 1\n"));
+  // The name says the radius of the flat, FreeCAD takes it for that of the corner: both are 1.5 mm.
+  EXPECT_THAT(imported("bullnose", R"("Diameter": "6 mm", "FlatRadius": "1.5 mm")"),
+              HasSubstr("shape \"bull\", cornerRadius 1.5\n"));
+  EXPECT_THAT(imported("bullnose", R"("Diameter": "8 mm", "FlatRadius": "1 mm")"),
+              HasSubstr("no shape is known for what the library calls bullnose"));
+  EXPECT_THAT(imported("drill", R"("Diameter": "6 mm", "TipAngle": "119 °")"),
+              HasSubstr("shape \"drill\", tipAngle 119\n"));
+  EXPECT_THAT(imported("v-bit", R"("Diameter": "6 mm", "CuttingEdgeAngle": "90 °")"),
+              HasSubstr("shape \"cone\", tipAngle 90\n"));
+  EXPECT_THAT(imported("v-bit", R"("Diameter": "6 mm", "CuttingEdgeAngle": "90 °", "TipDiameter": "2 mm")"),
+              HasSubstr("profile [[0, 1], [2, 3]]\n"));
+  EXPECT_THAT(imported("slittingsaw", R"("Diameter": "60 mm", "BladeThickness": "3 mm", "ShankDiameter": "19 mm")"),
+              HasSubstr("radius 3 -> 30, shape \"disc\", cutLength 3, shank 19\n"));
+  EXPECT_THAT(imported("probe", R"("Diameter": "6 mm")"), HasSubstr("0 new, 0 changed, 1 as before"));
+}
+
+TEST(ToolImport, ReadsALibraryOfFreeCad) {
+  const support::TemporaryFolder folder;
+  folder.write("Bit/mill.fctb", freecad("endmill", R"("Diameter": "6 mm")"));
+  folder.write("Library/drill.fctb", freecad("drill", R"("Diameter": "5 mm")"));
+  const std::string library =
+      folder.write("Library/shop.fctl",
+                   R"({"version": 1, "tools": [{"nr": 4, "path": "mill.fctb"}, {"nr": 7, "path": "drill.fctb"}]})");
+  const Library read = read_library(library, false, Language::English);
+  ASSERT_EQ(read.tools.size(), 2U);
+  EXPECT_EQ(read.tools[0].number, "4");
+  EXPECT_EQ(read.tools[0].tool.radius, 3);
+  EXPECT_EQ(read.tools[1].number, "7");
+  const std::string cyclic = folder.write(
+      "Library/cyclic.fctl", R"({"tools": [{"nr": 1, "path": "cyclic.fctl"}, {"nr": 2, "path": "none.fctb"}]})");
+  EXPECT_THAT(
+      read_library(cyclic, false, Language::English).mistakes,
+      ElementsAre(
+          HasSubstr("cyclic.fctl:1:12: error: tools[0].path: cyclic.fctl is no tool of FreeCAD: .fctb is needed"),
+          HasSubstr("tools[1].path: none.fctb is neither beside the library nor in ../Bit")));
+}
+
+/// A library that cannot be right, and what is said of it.
+struct Broken {
+  std::string file;
+  std::string text;
+  std::string mistake;
+};
+
+TEST(ToolImport, RefusesBrokenLibraries) {
+  const Broken broken[] = {
+      {"a.json", R"({"data": [)", "a.json:1:11: error: the file ends here"},
+      {"a.json", R"({"tools": 3})", "a.json:1:1: error: neither a library of Fusion"},
+      {"a.json", R"([1])", "a.json:1:1: error: an object in braces is needed here"},
+      {"a.json", R"({"data": {}})", "a.json:1:10: error: data: a list in brackets"},
+      {"a.json", R"({"data": [7]})", "data[0]: an object in braces"},
+      {"a.json", R"({"data": [{"unit": "furlongs"}]})",
+       "a.json:1:20: error: data[0].unit: furlongs is no unit known here: millimeters, inches"},
+      {"a.json", fusion("drill", R"("DC": -3)"), "data[0].geometry.DC: -3 is no length of a tool"},
+      {"a.json", fusion("drill", R"("DC": "6 mm")"), "data[0].geometry.DC: 6 mm is no length of a tool"},
+      {"a.json", fusion("drill", R"("DC": 1e300)"), "data[0].geometry.DC: 1e+300 is no length of a tool"},
+      {"a.json", fusion("drill", R"("SIG": 180)"), "data[0].geometry.SIG: 180 is no angle of a tool"},
+      {"a.json", R"({"1": {"units": "cubits"}})", "1.units: cubits is no unit known here: metric, imperial"},
+      {"a.fctb", freecad("endmill", R"("Diameter": "6 ells")"),
+       "parameter.Diameter: ells is no unit known here: mm, cm"},
+      {"a.fctb", freecad("endmill", R"("Diameter": "six")"), "parameter.Diameter: six is no length"},
+      {"a.fctb", R"({"name": "x"})", "a.fctb:1:1: error: parameter: an object in braces"},
+      {"a.tbl", "T1 D6\nT2 Rx\n", "a.tbl:2:4: error: Rx is no entry of a tool table"},
+      {"a.tbl", "D6\n", "a.tbl:1:1: error: a line of a tool table needs a T"},
+      {"a.csv", "", "the first line of a table names its columns"},
+      {"a.csv", "1;2;3\n", "a.csv:1:1: error: the first line of a table names its columns"},
+      {"a.csv", "T;length;lunghezza\n", "a.csv:1:10: error: two columns are called length"},
+      {"a.csv", "T;length\nT101001;long\n", "a.csv:2:9: error: length: long is no number"},
+      {"a.csv", "T;length\nT101001;-4\n", "a.csv:2:9: error: length: -4 is outside of what length may be"},
+      {"a.csv", "T;shape\nT101001;round\n",
+       "a.csv:2:9: error: shape: round is not one of flat, ball, bull, cone, drill, disc"},
+      {"a.csv", "T;shape\n1;flat\n", "a.csv:2:1: error: T: 1 is no place of a tool"},
+      {"a.csv", "T;shape\nT001001;flat\n", "T: T001001: a tool needs a holder, and a holder a head"},
+      {"a.csv", "T;unit\nT101001;ell\n", "unit: ell is no unit known here: mm, inch"},
+      {"a.csv", "T;name\nT101001;\"open\n", "a.csv:2:9: error: a quote without its closing one"},
+      {"a.csv", "T;profile\nT101001;0 1 2\n", "profile: an outline is pairs of numbers"},
+      {"a.tools", "PK", "a.tools: no archive that holds a tools.json, or a damaged one"},
+      {"a.xml", "<tools/>", "a.xml: no library of tools by its name"},
+  };
+  for (const Broken& each : broken) {
+    const Library library = read(each.file, each.text);
+    ASSERT_FALSE(library.mistakes.empty()) << each.text;
+    EXPECT_THAT(library.mistakes.front(), HasSubstr(each.mistake)) << each.text;
+  }
+}
+
+TEST(ToolImport, RefusesWhatIsNotClear) {
+  const Library twins = read("a.csv", "number;name;radius\n1;a;2\n1;b;3\n");
+  EXPECT_EQ(shown({}, twins, map_of({{"1", 101001}})),
+            "the map's 1 means 2 tools of the library: a, b; map them by their names");
+  EXPECT_THAT(shown({}, twins, map_of({{"a", 101001}, {"b", 101002}})), HasSubstr("2 new"));
+  // The name of one leaves the number to the other.
+  EXPECT_THAT(shown({}, twins, map_of({{"a", 101001}, {"1", 101002}})), HasSubstr("+ T101002 \"b\": radius 3\n"));
+  const Library same = read("a.csv", "T;name\nT101001;a\nT101001;b\n");
+  EXPECT_EQ(shown({}, same, {}), "two tools of the library stand at T101001: a and b");
+}
+
+TEST(ToolImport, TellsToolsThatCannotBe) {
+  const Library library = read("a.csv", "T;name;length;radius;shape;cutLength\nT101001;a;20;3;flat;40\n");
+  EXPECT_EQ(shown({}, library, {}),
+            "! a: not taken: cutLength: 40 is too large: 20 mm of the tool are outside the holder\n"
+            "0 new, 0 changed, 0 as before, 0 of the machine not in the library, 1 of the library not taken\n");
+}
+
+constexpr std::string_view kShop = R"({
+  // The big router
+  "machine": {
+    "axes": {"X": {"min": 0, "max": 3200}}, /* all of it */
+    "tools": [
+      {"head": 1, "holder": 1, "tool": 1, "name": "cutter 20", /* by T1 */ "length": 120.5, "radius": 10}, // the good one
+      {
+        "head": 1, "holder": 2, "tool": 2,
+        "name": "ball" // of steel
+      } // bought in May
+      // more to come
+    ] // tools
+  }
+}
+)";
+
+TEST(ToolImport, KeepsCommentsAndLayout) {
+  const Library library =
+      read("a.csv", "T;name;length;radius\nT101001;cutter 20;118;10\nT102002;ball;80;3\nT103003;drill;90;4\n");
+  const auto import = std::get<ToolImport>(import_tools(machine_of(kShop), library, {}));
+  std::string expected(kShop);
+  const auto replace = [&](std::string_view before, std::string_view after) {
+    expected.replace(expected.find(before), before.size(), after);
+  };
+  replace("120.5", "118");
+  replace("\"ball\" // of steel", "\"ball\", // of steel\n        \"length\": 80,\n        \"radius\": 3");
+  replace("} // bought in May",
+          "}, // bought in May\n      {\"head\": 1, \"holder\": 3, \"tool\": 3, \"name\": \"drill\", \"length\": 90, "
+          "\"radius\": 4}");
+  EXPECT_EQ(with_import(kShop, "/shop", import), expected);
+}
+
+TEST(ToolImport, WritesWhereThereIsNoList) {
+  const Library library = read("a.csv", "T;radius\nT101001;10\n");
+  const auto import = std::get<ToolImport>(import_tools({}, library, {}));
+  constexpr std::string_view kTool = "{\"head\": 1, \"holder\": 1, \"tool\": 1, \"radius\": 10}";
+  const auto written = [&](std::string_view text) { return with_import(text, "/shop", import).value_or("none"); };
+  EXPECT_EQ(written(""), fmt::format("{{\n  \"machine\": {{\n    \"tools\": [\n      {}\n    ]\n  }}\n}}\n", kTool));
+  EXPECT_EQ(written("{\"language\": \"it\"}"),
+            fmt::format("{{\"language\": \"it\", \"machine\": {{\n    \"tools\": [\n      {}\n    ]\n  }}}}", kTool));
+  EXPECT_EQ(written("{\r\n  \"machine\": {\"tools\": [ // none yet\r\n  ]}\r\n}\r\n"),
+            fmt::format("{{\r\n  \"machine\": {{\"tools\": [ // none yet\r\n    {}\r\n  ]}}\r\n}}\r\n", kTool));
+}
+
+TEST(ToolImport, LeavesOtherShapesBehind) {
+  constexpr std::string_view kBull =
+      R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 6, "shape": "bull", "cornerRadius": 2}]}})";
+  const Library library = read("a.csv", "T;shape\nT101001;flat\n");
+  const auto import = std::get<ToolImport>(import_tools(machine_of(kBull), library, {}));
+  EXPECT_THAT(shown_import(import, Language::Italian),
+              HasSubstr("~ T101001: shape \"bull\" -> \"flat\", cornerRadius 2 -> -\n"));
+  EXPECT_THAT(with_import(kBull, "/shop", import).value_or(""),
+              HasSubstr(R"([{"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 6, "shape": "flat"}])"));
+}
+
+TEST(ToolImport, KeepsWhatIsAskedFor) {
+  const Library library = read("a.csv", "T;name;length;radius\nT101001;cutter 20;118;9\nT102002;ball;80;3\n");
+  const auto import = std::get<ToolImport>(import_tools(machine_of(kShop), library, {.kept = {"length", "name"}}));
+  const std::string shown = shown_import(import, Language::English);
+  EXPECT_THAT(shown, HasSubstr("~ T101001 \"cutter 20\": radius 10 -> 9\n"));
+  EXPECT_THAT(shown, HasSubstr("~ T102002 \"ball\": length 80, radius 3\n"));  // It had none.
+}
+
+TEST(ToolImport, HoldersOfOneNameStayApart) {
+  const auto tool = [](int number, double height) {
+    return fmt::format(
+        R"({{"description": "t{}", "type": "drill", "unit": "millimeters", "geometry": {{"DC": 6, "LB": 30}}, "post-process": {{"number": {}}},
+      "holder": {{"description": "ER", "segments": [{{"height": {}, "lower-diameter": 20, "upper-diameter": 20}}]}}}})",
+        number, number, height);
+  };
+  const Library library =
+      read("a.json", fmt::format(R"({{"data": [{}, {}, {}]}})", tool(1, 40), tool(2, 50), tool(3, 40)));
+  const auto import =
+      std::get<ToolImport>(import_tools({}, library, {.map = map_of({{"1", 101001}, {"2", 101002}, {"3", 101003}})}));
+  ASSERT_EQ(import.holders.size(), 2U);
+  EXPECT_EQ(import.holders[1].holder.name, "ER 2");
+  EXPECT_EQ(import.changes[1].tool.body, "ER 2");
+  EXPECT_EQ(import.changes[2].tool.body, "ER");
+  // The same library once more changes nothing.
+  const std::string text = with_import("", "/shop", import).value_or("");
+  EXPECT_THAT(shown(machine_of(text), library, map_of({{"1", 101001}, {"2", 101002}, {"3", 101003}})),
+              HasSubstr("0 new, 0 changed, 3 as before"));
+}
+
+// A table says all of the tools, in both languages, whatever they are called.
+TEST(ToolTable, IsReadAsItIsWritten) {
+  constexpr const char* kNames[] = {"",   "mill", "a;b",        "a,b", "\"q\"",   "=1+2",
+                                    "-5", "'x",   "due\nrighe", " ",   "\xC3\xA8"};
+  for (const std::uint64_t seed : support::seeds(50)) {
+    support::Random random(seed);
+    std::vector<configuration::Tool> tools;
+    for (int i = 1; i <= 9; ++i) {
+      configuration::Tool tool;
+      tool.code = {1, i, i};
+      tool.name = kNames[random.below(std::size(kNames))];
+      if (random.below(2) == 0) tool.length = static_cast<double>(random.below(1'000'000) + 1) / 1000;
+      if (random.below(2) == 0) tool.radius = static_cast<double>(random.below(10'000) + 1) / 1000;
+      if (tool.length && random.below(3) == 0)
+        tool.profile = {{0, 0.5}, {static_cast<double>(random.below(50) + 1) / 64, 3}};
+      tools.push_back(tool);
+    }
+    for (const Language language : {Language::English, Language::Italian}) {
+      const Library read = read_library_text("t.csv", columns_of(tools, language), false, Language::English);
+      ASSERT_THAT(read.mistakes, IsEmpty());
+      ASSERT_EQ(read.tools.size(), tools.size());
+      for (std::size_t i = 0; i < tools.size(); ++i) {
+        EXPECT_EQ(read.tools[i].tool.code, tools[i].code);
+        EXPECT_EQ(read.tools[i].tool.name, tools[i].name == " " ? "" : tools[i].name);
+        EXPECT_EQ(read.tools[i].tool.length, tools[i].length);
+        EXPECT_EQ(read.tools[i].tool.radius, tools[i].radius);
+      }
+    }
+  }
+}
+
+TEST(NewMachine, IsWhatWasAnswered) {
+  std::istringstream answers("table\n0\n2000\n\n\n-300\n100\n-5\n110\n\n\n\n\n\n30000\n\nabc\n24000\n\n\n\n\n12,5\n");
+  std::ostringstream questions;
+  const std::string text =
+      ask_for_machine("{\n  // ours\n  \"language\": \"it\"\n}\n", answers, questions, Language::English)
+          .value_or("none");
+  const MachineConfiguration machine = machine_of(text);
+  EXPECT_EQ(machine.kind, "table");
+  EXPECT_EQ(machine.setup.limits.travel[0].maximum, 2000);
+  EXPECT_THAT(text, HasSubstr("// ours"));
+  EXPECT_THAT(text, HasSubstr("// "));
+  EXPECT_THAT(questions.str(), HasSubstr("abc is neither a number"));
+  EXPECT_THAT(questions.str(), testing::Not(HasSubstr("kinematics.pivot")));
+  EXPECT_EQ(machine.timed.durations.tool_change, 12.5);
+}
+
+TEST(NewMachine, AsksAgainForWhatCannotBe) {
+  std::istringstream answers("ball\n\n0\n-5\n3200\n");
+  std::ostringstream questions;
+  EXPECT_EQ(ask_for_machine("", answers, questions, Language::Italian), std::nullopt);
+  EXPECT_THAT(questions.str(), HasSubstr("ball non è né un numero né una delle parole richieste"));
+  EXPECT_THAT(questions.str(), HasSubstr("machine.axes.X.max: "));
+}
+
+}  // namespace
+}  // namespace isocnc::tool_library
