@@ -239,8 +239,8 @@ ExitStatus run_main(int argc, char** argv) {
   if (options.messages_page) return say(messages_page(), options);
   if (options.foreign_page) return say(foreign_page(options.reader_language()), options);
   if (options.notepad_language) return say(notepad_language(), options);
-  if (options.config_schema) return say(configuration::json_schema(), options);
-  if (options.setup_schema) return say(configuration::setup_schema(), options);
+  if (options.config_schema) return say(configuration::json_schema(options.reader_language()), options);
+  if (options.setup_schema) return say(configuration::setup_schema(options.reader_language()), options);
   if (options.config_keys) return say(configuration::key_page(options.reader_language()), options);
   if (options.machine_page) return say(configuration::machine_page(options.reader_language()), options);
   if (options.merge) return merge_shards(options);

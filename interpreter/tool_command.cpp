@@ -274,10 +274,9 @@ void add_tool_options(command_line::ProgramApp& program, ToolCommandOptions& opt
       .add_flag("--presetter", options.is_for_presetter,
                 {"With --export-tools: with columns to measure into", "Con --export-tools: con colonne per le misure"})
       .needs(exported);
-  const command_line::ProgramOption machine =
-      program.add_option("--new-machine", options.new_machine, command_line::kFileValue,
-                         {"Ask about a machine, and write it as an isocnc.json",
-                          "Chiede com'è la macchina, e la scrive in un isocnc.json"});
+  const command_line::ProgramOption machine = program.add_option(
+      "--new-machine", options.new_machine, command_line::kFileValue,
+      {"Ask about a machine, and write it as an isocnc.json", "Chiede com'è la macchina, e ne scrive l'isocnc.json"});
   import.excludes(exported);
   import.excludes(machine);
   exported.excludes(machine);

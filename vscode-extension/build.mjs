@@ -27,13 +27,13 @@ await Promise.all([
   }),
   build({
     ...common,
-    entryPoints: { toolpath: here('src/webview/main.ts') },
+    entryPoints: { toolpath: here('src/webview/main.ts'), form: here('src/webview/form.ts') },
     outdir: here('dist'),
     format: 'iife',
     // What the view needs is its own.
     nodePaths: [here('../toolpath-view/node_modules')],
   }),
-  build({ ...common, entryPoints: { toolpath: here('src/webview/toolpath.css') }, outdir: here('dist') }),
+  build({ ...common, entryPoints: { toolpath: here('src/webview/toolpath.css'), form: here('src/webview/form.css') }, outdir: here('dist') }),
 ]);
 
 // The page of isorun without what the editor has itself; the rest is filled in where it is shown.

@@ -67,7 +67,10 @@ for (const name of ['dist', 'l10n', 'media', 'snippets', 'syntaxes', 'test-drive
   cpSync(join(here, name), join(stage, name), { recursive: true });
 rmSync(join(stage, 'media/icon.svg'));
 for (const name of ['LICENSE', 'CHANGELOG.md']) cpSync(join(root, name), join(stage, name));
-for (const name of ['isocnc.schema.json', 'isocnc-setup.schema.json']) cpSync(join(root, 'docs', name), join(stage, name));
+for (const name of ['isocnc', 'isocnc-setup']) {
+  cpSync(join(root, `docs/${name}.schema.json`), join(stage, `${name}.schema.json`));
+  cpSync(join(root, `docs/${name}.schema.it.json`), join(stage, `${name}.schema.it.json`));
+}
 for (const name of ['pocket.iso', 'five-axis.iso', 'option.iso']) cpSync(join(root, 'examples', name), join(stage, 'test-drive', name));
 if (process.env.ISOCNC_NOTICES) cpSync(process.env.ISOCNC_NOTICES, join(stage, 'third-party-notices.txt'));
 if (isOfModule) {

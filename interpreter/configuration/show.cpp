@@ -184,10 +184,10 @@ static void add_range(const NumberRange& range, ordered_json& schema) {
 }
 
 /// The schema of a list with a number for each column.
-static ordered_json row_schema(const Key& key) {
+static ordered_json row_schema(const Key& key, Language language) {
   ordered_json numbers = ordered_json::array();
   for (const Column& column : key.columns) {
-    ordered_json number = {{"description", column.name.en}, {"type", "number"}};
+    ordered_json number = {{"description", column.name.in(language)}, {"type", "number"}};
     add_range(column.range, number);
     numbers.push_back(std::move(number));
   }
@@ -195,46 +195,47 @@ static ordered_json row_schema(const Key& key) {
   return {{"type", "array"}, {"items", std::move(numbers)}, {"minItems", count}, {"maxItems", count}};
 }
 
-static ordered_json rows_schema(const Key& key) {
+static ordered_json rows_schema(const Key& key, Language language) {
   return {{"type", "array"},
-          {"items", row_schema(key)},
+          {"items", row_schema(key, language)},
           {"minItems", key.has_all_rows ? key.maximum_rows : 1},
           {"maxItems", key.maximum_rows}};
 }
 
-static std::string description_of(const Key& key) {
-  return std::string(key.documentation.en) + (key.unit.en.empty() ? "" : fmt::format(" In {}.", key.unit.en));
+static std::string description_of(const Key& key, Language language) {
+  return std::string(key.documentation.in(language)) +
+         (key.unit.en.empty() ? "" : fmt::format(" In {}.", key.unit.in(language)));
 }
 
-static ordered_json schema_of(const Key* key);
+static ordered_json schema_of(const Key* key, Language language);
 
 /// The schema of an object's members.
-static ordered_json members_schema(const Key* key) {
+static ordered_json members_schema(const Key* key, Language language) {
   ordered_json schema = {{"type", "object"}, {"additionalProperties", false}, {"properties", ordered_json::object()}};
   ordered_json required = ordered_json::array();
   for (const Key* each : keys_below(key)) {
-    schema["properties"][std::string(each->name())] = schema_of(each);
+    schema["properties"][std::string(each->name())] = schema_of(each, language);
     if (each->is_required) required.push_back(std::string(each->name()));
   }
   if (!required.empty()) schema["required"] = std::move(required);
   return schema;
 }
 
-static ordered_json schema_of(const Key* key) {
+static ordered_json schema_of(const Key* key, Language language) {
   ordered_json schema = ordered_json::object();
-  schema["description"] = description_of(*key);
+  schema["description"] = description_of(*key, language);
   switch (key->kind) {
     case KeyKind::Object:
-      schema.update(members_schema(key));
+      schema.update(members_schema(key, language));
       break;
     case KeyKind::Objects:
       schema["type"] = "array";
-      schema["items"] = members_schema(key);
+      schema["items"] = members_schema(key, language);
       break;
     case KeyKind::Named:
       schema["type"] = "object";
       schema["propertyNames"] = text_schema(key->text);
-      schema["additionalProperties"] = members_schema(key);
+      schema["additionalProperties"] = members_schema(key, language);
       break;
     case KeyKind::Number:
     case KeyKind::Integer:
@@ -261,22 +262,22 @@ static ordered_json schema_of(const Key* key) {
       schema["additionalProperties"] = {{"enum", key->choices}};
       break;
     case KeyKind::Point:
-      schema.update(row_schema(*key));
+      schema.update(row_schema(*key, language));
       break;
     case KeyKind::Rows:
-      schema.update(rows_schema(*key));
+      schema.update(rows_schema(*key, language));
       break;
     case KeyKind::NamedRows:
       schema["type"] = "object";
       schema["propertyNames"] = text_schema(key->text);
-      schema["additionalProperties"] = rows_schema(*key);
+      schema["additionalProperties"] = rows_schema(*key, language);
       break;
     case KeyKind::Message: {
       ordered_json texts = {
           {"type", "object"}, {"additionalProperties", false}, {"properties", ordered_json::object()}};
-      for (const std::string_view language : dialect::kLanguageNames) {
-        texts["properties"][std::string(language)] = text_schema(TextKind::Any);
-        texts["required"].push_back(std::string(language));
+      for (const std::string_view name : dialect::kLanguageNames) {
+        texts["properties"][std::string(name)] = text_schema(TextKind::Any);
+        texts["required"].push_back(std::string(name));
       }
       schema["anyOf"] = {text_schema(TextKind::Any), std::move(texts)};
       break;
@@ -285,28 +286,32 @@ static ordered_json schema_of(const Key* key) {
   return schema;
 }
 
-std::string json_schema() {
-  ordered_json schema = {
-      {"$schema", "http://json-schema.org/draft-07/schema#"},
-      {"title", "isocnc.json"},
-      {"description", "What isolint, isofmt and isorun know about a machine, and the options of its shop."}};
-  schema.update(members_schema(nullptr));
+std::string json_schema(Language language) {
+  static constexpr Text kDescription{
+      "What isolint, isofmt and isorun know about a machine, and the options of its shop.",
+      "Ciò che isolint, isofmt e isorun sanno di una macchina, e le opzioni dell'officina."};
+  ordered_json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                         {"title", "isocnc.json"},
+                         {"description", kDescription.in(language)}};
+  schema.update(members_schema(nullptr, language));
   schema["definitions"] = {{"code", code_schema()}};
   return schema.dump(2) + "\n";
 }
 
-std::string setup_schema() {
+std::string setup_schema(Language language) {
+  static constexpr Text kDescription{"What stands around one program: an entry of setups in isocnc.json.",
+                                     "Ciò che sta intorno a un programma: una voce di setups nell'isocnc.json."};
   const std::vector<Key>& keys = all_keys();
   const auto setups = std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.path == "setups"; });
-  ordered_json members = members_schema(&*setups);
+  ordered_json members = members_schema(&*setups, language);
   members["properties"].erase("paths");
   members.erase("required");  // That are the paths.
-  ordered_json properties = {{"$schema", schema_of(&keys.front())}};
+  ordered_json properties = {{"$schema", schema_of(&keys.front(), language)}};
   properties.update(members["properties"]);
   members["properties"] = std::move(properties);
   ordered_json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                          {"title", "PROGRAM.setup.json"},
-                         {"description", "What stands around one program: an entry of setups in isocnc.json."}};
+                         {"description", kDescription.in(language)}};
   schema.update(members);
   return schema.dump(2) + "\n";
 }

@@ -11,11 +11,11 @@ namespace isocnc::configuration {
 /// The configuration as a complete isocnc.json; keys without a value are omitted.
 std::string to_json(const Configuration& configuration);
 
-/// The schema of isocnc.json: JSON Schema, draft 7.
-std::string json_schema();
+/// The schema of isocnc.json: JSON Schema, draft 7. Descriptions are in the language.
+std::string json_schema(dialect::Language language);
 
 /// The schema of a setup that is a file of its own, `door.setup.json`.
-std::string setup_schema();
+std::string setup_schema(dialect::Language language);
 
 /// All keys except those of the machine, as a Markdown table.
 std::string key_page(dialect::Language language);

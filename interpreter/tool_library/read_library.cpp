@@ -95,10 +95,12 @@ std::optional<JsonValue> object_in(LibraryFile& file) {
     file.fail(mistake->at, mistake->key, mistake->text, mistake->names);
     return std::nullopt;
   }
-  auto& value = std::get<JsonValue>(parsed);
-  if (value.kind == Kind::Object) return std::move(value);
-  file.fail(value.at, {}, problems::kNeedsObject);
-  return std::nullopt;
+  std::optional<JsonValue> value = std::get<JsonValue>(std::move(parsed));
+  if (value->kind != Kind::Object) {
+    file.fail(value->at, {}, problems::kNeedsObject);
+    value.reset();
+  }
+  return value;
 }
 
 bool is_table_of_camotics(const JsonValue& value) {

@@ -55,7 +55,7 @@ std::string output_of(const std::string& command) {
 }
 
 /// What a validator of JSON Schema has to say; it needs python3-jsonschema.
-std::string validate(const json& documents, const std::string& schema = json_schema()) {
+std::string validate(const json& documents, const std::string& schema = json_schema(Language::English)) {
   std::string name = std::filesystem::temp_directory_path() / "isocnc-schema-XXXXXX";
   ::close(::mkstemp(name.data()));
   std::ofstream(name) << json{{"schema", json::parse(schema)}, {"documents", documents}};
@@ -100,17 +100,23 @@ TEST(Schema, OfSetupsAgreesWithTheReader) {
        {R"({})", R"([])", R"({"clearance": -1})", R"({"clearanc": 1})", R"({"target": {}})",
         R"({"spoilboard": {"top": 1}})", R"({"fixtures": [{}]})", R"({"frame": "part"})", R"({"setups": []})"})
     add(parsed(text));
-  EXPECT_EQ(validate(documents, setup_schema()), fmt::format("{} documents\n", documents.size()));
+  EXPECT_EQ(validate(documents, setup_schema(Language::English)), fmt::format("{} documents\n", documents.size()));
 }
 
 TEST(Schema, OfSetupsIsShipped) {
-  const bool same = read_file(kRoot / "docs/isocnc-setup.schema.json") == setup_schema();
-  EXPECT_TRUE(same) << "isolint --setup-schema > docs/isocnc-setup.schema.json";
+  const auto same = [](const char* page, Language language) {
+    return read_file(kRoot / page) == setup_schema(language);
+  };
+  EXPECT_TRUE(same("docs/isocnc-setup.schema.json", Language::English)) << "isolint --lang en --setup-schema";
+  EXPECT_TRUE(same("docs/isocnc-setup.schema.it.json", Language::Italian)) << "isolint --lang it --setup-schema";
 }
 
 TEST(Schema, IsShipped) {
-  const bool same = read_file(kRoot / "docs/isocnc.schema.json") == json_schema();
-  EXPECT_TRUE(same) << "isolint --config-schema > docs/isocnc.schema.json";
+  const auto same = [](const char* page, Language language) {
+    return read_file(kRoot / page) == json_schema(language);
+  };
+  EXPECT_TRUE(same("docs/isocnc.schema.json", Language::English)) << "isolint --lang en --config-schema";
+  EXPECT_TRUE(same("docs/isocnc.schema.it.json", Language::Italian)) << "isolint --lang it --config-schema";
 }
 
 TEST(Documentation, ListsAllKeys) {

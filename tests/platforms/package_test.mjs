@@ -135,6 +135,24 @@ test('it is packed, installed, and its commands run', () => {
   for (const file of ['README.md', 'LICENSE', 'dist/index.d.ts']) assert.ok(files.includes(file), file);
 });
 
+test('its types compile where programs in TypeScript use it', () => {
+  const source = `import { check, CommandError, diff, format, run, type Comparison, type Finding, type Run } from 'isocnc';
+export async function use(): Promise<number> {
+  const findings: Finding[] = await check('M02', { language: 'it', files: { 'part.stl': new Uint8Array(3) } });
+  const ran: Run = await run(await format('M02'), { trace: true });
+  const compared: Comparison = await diff('M02', 'M02');
+  if (compared.findings.some((each) => each.kind === 'gone')) throw new CommandError(compared.old.tools.map((each) => each.tool).join());
+  return findings.length + (ran.trace ?? []).length + compared.new.feedMm + (compared.new.extents?.X[0] ?? 0);
+}
+`;
+  writeFileSync(join(folder, 'use.ts'), source);
+  const tsc = new URL('../../web/node_modules/typescript/bin/tsc', import.meta.url).pathname;
+  for (const options of [['--module', 'nodenext'], ['--module', 'es2022', '--moduleResolution', 'bundler'], ['--module', 'es2022', '--moduleResolution', 'node']]) {
+    const compiled = spawnSync(process.execPath, [tsc, '--noEmit', '--strict', '--target', 'es2022', '--lib', 'es2022,dom', '--types', '', ...options, 'use.ts'], { cwd: folder, encoding: 'utf8' });
+    assert.equal(compiled.stdout, '', options.join(' '));
+  }
+});
+
 test('what a page loads has at most 3 MB when compressed', () => {
   const bytes = ['isocnc.wasm', 'isocnc.mjs', 'index.js', 'worker.js'].reduce((sum, name) => sum + gzipSync(readFileSync(join(made, 'dist', name))).length, 0);
   assert.ok(bytes < 3e6, `${bytes}`);

@@ -355,6 +355,49 @@ test('the tree of operations has times and findings, leads to lines, and hides p
   await eventually(async () => /M06 T101001/.test(await editor.lineText(await editor.currentLine())), 'the first operation is not shown');
 });
 
+test('the machine, its tools and setups are edited in a form, which keeps comments', async () => {
+  const text = `{
+  // ours
+  "machine": {
+    "tools": [
+      {"head": 1, "holder": 1, "tool": 1, "name": "cutter 20", "length": 120, "radius": 10} // measured in March
+    ]
+  }
+}
+`;
+  mkdirSync(join(editor.workspace, 'form'));
+  editor.add('form/isocnc.json', text);
+  editor.add('form/formed.iso', 'G71 G90\nM06 T101001\nM02\n');
+  await editor.open('formed.iso');
+  await editor.command('ISOCNC: Edit Machine, Tools and Setups in a Form');
+  const frame = await eventually(async () => {
+    for (const each of page.frames()) if (await each.evaluate(() => document.querySelector('#form')?.childElementCount > 0).catch(() => false)) return each;
+    return null;
+  }, 'the form does not show');
+  const tool = frame.locator('details[id="machine.tools.0"]');
+  await tool.locator('summary').first().click();
+  const length = frame.locator('input[id="machine.tools.0.length"]');
+  assert.equal(await length.inputValue(), '120');
+  await length.fill('-4');
+  await length.press('Tab');
+  assert.equal(await length.getAttribute('aria-invalid'), 'true');
+  await length.fill('118,5');
+  await length.press('Tab');
+  await eventually(() => frame.locator('input[id="machine.tools.0.length"]').inputValue(), 'the length is not taken', (value) => value === '118.5');
+  await frame.locator('details[id="machine.tools"] > .part > button').click();
+  await frame.locator('details[id="machine.tools.1"] input[id="machine.tools.1.name"]').fill('ball 6');
+  await frame.locator('input[id="machine.tools.1.name"]').press('Tab');
+  await eventually(() => frame.locator('details[id="machine.tools.1"] > summary').innerText(), 'the tool is not added', (title) => title.includes('T101002 · ball 6'));
+  await editor.keepPicture('form');
+  await editor.press('Control+s');
+  const saved = () => readFileSync(join(editor.workspace, 'form/isocnc.json'), 'utf8');
+  const written = await eventually(saved, 'nothing is saved', (now) => now !== text);
+  assert.match(written, /\/\/ ours/);
+  assert.match(written, /"length": 118\.5[^\n]*\/\/ measured in March/);
+  assert.equal(JSON.parse(written.replaceAll(/\/\/.*/g, '')).machine.tools.length, 2);
+  await editor.open('plate.iso');
+});
+
 test('a program is mirrored by a command, and back', async () => {
   await editor.focus();
   await editor.goTo(14);

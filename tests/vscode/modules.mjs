@@ -25,6 +25,6 @@ async function loaded(file, name, replacements = {}) {
     alias[replaced] = join(folder, `${replaced.replaceAll('/', '-')}.replacement.mjs`);
     writeFileSync(alias[replaced], source);
   }
-  requireFromExtension('esbuild').buildSync({ entryPoints: [file], bundle: true, format: 'esm', platform: 'node', outfile, alias });
+  requireFromExtension('esbuild').buildSync({ entryPoints: [file], bundle: true, format: 'esm', platform: 'node', mainFields: ['module', 'main'], outfile, alias });
   return import(pathToFileURL(outfile));
 }

@@ -5,6 +5,7 @@ import * as commands from './commands';
 import * as currentProgram from './current_program';
 import * as debug from './debug';
 import { Environment, type FindProgram } from './environment';
+import * as form from './form/editor';
 import * as largeFiles from './large_files';
 import * as operations from './operations/view';
 import { Server } from './server';
@@ -29,6 +30,7 @@ export function start(context: vscode.ExtensionContext, find: FindProgram): void
   behavior.activate(context, server);
   commands.activate(context, server);
   debug.activate(context, environment);
+  form.activate(context);
   largeFiles.activate(context, environment);
   operations.activate(context, server, hidden);
   simulator.activate(context, environment);
