@@ -47,8 +47,10 @@ constexpr Text kNotCsv{
     "--export-tools writes a file whose name ends in .csv, or - for standard output, unlike {}",
     "--export-tools scrive un file il cui nome finisce in .csv, o - per lo standard output, non come {}"};
 constexpr Text kNoKey{"{} is no key of a tool: {}", "{} non è una chiave di un utensile: {}"};
-constexpr Text kDefect{"{} would not be valid with these tools; nothing is written",
-                       "con questi utensili {} non sarebbe valido; non è scritto nulla"};
+constexpr Text kIgnoredColumns{"columns that are not read: {}", "colonne che non vengono lette: {}"};
+constexpr Text kTakesNone{"no tool is taken", "nessun utensile è preso"};
+constexpr Text kDefect{"with these tools {} would be too large, or not valid; nothing is written",
+                       "con questi utensili {} sarebbe troppo grande, o non valido; non è scritto nulla"};
 
 void refuse_tools(std::string_view why) { command_line::complain("isorun", why); }
 
@@ -159,7 +161,16 @@ ExitStatus import_tools(const ToolCommandOptions& options, const FoundMachine& f
   }
   const auto& import = std::get<tool_library::ToolImport>(planned);
   std::cout << shown_import(import, language);
+  if (!library.ignored.empty())
+    std::cout << dialect::format(kIgnoredColumns, language, fmt::format("{}", fmt::join(library.ignored, ", ")))
+              << '\n';
   if (import.changes.empty() && import.unchanged == 0) {
+    const bool lacks_places = std::any_of(library.tools.begin(), library.tools.end(),
+                                          [](const tool_library::LibraryTool& tool) { return !tool.has_place; });
+    if (!lacks_places || !options.map_file.empty()) {
+      refuse_tools(kTakesNone.in(language));
+      return ExitStatus::Failure;
+    }
     const std::string number = library.tools.empty()                  ? "1"
                                : library.tools.front().number.empty() ? library.tools.front().tool.name
                                                                       : library.tools.front().number;

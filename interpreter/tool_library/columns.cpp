@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
@@ -24,6 +25,11 @@ namespace {
 constexpr Text kNoHeader{"the first line of a table names its columns, such as T;name;length;diameter",
                          "la prima riga di una tabella dà i nomi alle colonne, per esempio T;nome;lunghezza;diametro"};
 constexpr Text kTwoColumns{"two columns are called {0}", "due colonne si chiamano {0}"};
+constexpr Text kTwoColumnsOfOneFact{"the columns {0} and {1} say the same",
+                                    "le colonne {0} e {1} dicono la stessa cosa"};
+constexpr Text kTooManyCells{
+    "a row with more cells than there are columns; decimals with a comma need another separator",
+    "una riga con più celle che colonne; i decimali con la virgola vogliono un altro separatore"};
 constexpr Text kOpenQuote{"a quote without its closing one", "virgolette senza quelle di chiusura"};
 constexpr Text kNoNumber{"{0} is no number", "{0} non è un numero"};
 constexpr Text kOutOfRange{"{0} is outside of what {1} may be", "{0} è fuori da ciò che {1} può essere"};
@@ -89,8 +95,7 @@ std::string in_small_letters(std::string_view text) {
 
 /// What a column is called here, however it is written; empty if nothing is.
 std::string_view column_called(std::string_view written) {
-  std::string small = in_small_letters(written);
-  if (const std::size_t unit = small.find(" ("); unit != std::string::npos) small.resize(unit);  // `length (mm)`
+  const std::string small = in_small_letters(written);
   for (const Key* key : tool_keys())
     if (in_small_letters(key->name()) == small) return key->name();
   for (const Alias& alias : kAliases)
@@ -101,6 +106,13 @@ std::string_view column_called(std::string_view written) {
 /// Whether a spreadsheet would take a cell that starts so for a formula. A text that does is written after an
 /// apostrophe.
 bool is_formula_start(char letter) { return std::string_view("=+-@").find(letter) != std::string_view::npos; }
+
+/// How many mm a unit has; none for an unknown one.
+std::optional<double> millimeters_in(std::string_view unit) {
+  if (unit == "mm" || unit == "millimeters" || unit == "millimetri") return 1;
+  if (unit == "inch" || unit == "inches" || unit == "in" || unit == "\"" || unit == "pollici") return kInch;
+  return std::nullopt;
+}
 
 /// A cell with its place in the text.
 struct CsvCell {
@@ -203,31 +215,20 @@ class ToolRow {
   /// The unit of this tool, where its row says one.
   void read_unit(const CsvCell& cell) {
     const std::string unit = in_small_letters(cell.text);
-    if (unit == "mm" || unit == "millimeters") {
-      millimeters_ = 1;
-    } else if (unit == "inch" || unit == "inches" || unit == "in") {
-      millimeters_ = kInch;
+    if (const std::optional<double> millimeters = millimeters_in(unit)) {
+      millimeters_ = *millimeters;
     } else if (!unit.empty()) {
       file_.fail(cell.at, std::string(kUnit), problems::kUnknownUnit,
                  {configuration::shortened(cell.text), std::string("mm, inch")});
     }
   }
 
-  void read(std::string_view column, const CsvCell& cell) {
+  /// `millimeters` is that of the unit in the heading of the column, which counts before that of the row.
+  void read(std::string_view column, std::optional<double> millimeters, const CsvCell& cell) {
     if (cell.text.empty() || column == kUnit) return;
-    if (column == kNumber) {
-      number_ = cell.text;
-    } else if (column == kPlace) {
-      read_place(cell);
-    } else if (column == kDiameter) {
-      if (const auto diameter = length("diameter", cell)) tool().radius = tidy(*diameter / 2);
-    } else if (column == kMeasuredLength.en) {
-      measured_length_ = length(column, cell);
-    } else if (column == kMeasuredRadius.en) {
-      measured_radius_ = length(column, cell);
-    } else if (const Key* const key = tool_key(column)) {
-      read_key(*key, cell);
-    }
+    const double of_row = std::exchange(millimeters_, millimeters.value_or(millimeters_));
+    read(column, cell);
+    millimeters_ = of_row;
   }
 
   LibraryTool take() {
@@ -243,6 +244,22 @@ class ToolRow {
 
  private:
   Tool& tool() { return configuration_.machine.tools->front(); }
+
+  void read(std::string_view column, const CsvCell& cell) {
+    if (column == kNumber) {
+      number_ = cell.text;
+    } else if (column == kPlace) {
+      read_place(cell);
+    } else if (column == kDiameter) {
+      if (const auto diameter = length("diameter", cell)) tool().radius = tidy(*diameter / 2);
+    } else if (column == kMeasuredLength.en) {
+      measured_length_ = length(column, cell);
+    } else if (column == kMeasuredRadius.en) {
+      measured_radius_ = length(column, cell);
+    } else if (const Key* const key = tool_key(column)) {
+      read_key(*key, cell);
+    }
+  }
 
   void fail(std::string_view column, const CsvCell& cell, const Text& why,
             std::vector<configuration::Named> more = {}) {
@@ -319,18 +336,43 @@ class ToolRow {
   std::optional<double> measured_radius_;
 };
 
-/// Which column each cell of a row belongs to; empty for those that are not read.
-std::vector<std::string_view> read_header(const CsvRow& header, LibraryFile& file, std::vector<std::string>& ignored) {
-  std::vector<std::string_view> columns;
+/// A column of a table; its name is empty if it is not read.
+struct HeadedColumn {
+  std::string_view name;
+  std::optional<double> millimeters;  ///< Of its unit, if its heading says one.
+};
+
+/// The column of each cell of a row.
+std::vector<HeadedColumn> read_header(const CsvRow& header, LibraryFile& file, std::vector<std::string>& ignored) {
+  std::vector<HeadedColumn> columns;
+  const auto has = [&](std::string_view name) {
+    return std::any_of(columns.begin(), columns.end(), [&](const HeadedColumn& column) { return column.name == name; });
+  };
   for (const CsvCell& cell : header) {
-    const std::string_view column = column_called(cell.text);
-    if (column.empty() && !cell.text.empty()) ignored.push_back(configuration::shortened(cell.text));
-    if (!column.empty() && std::find(columns.begin(), columns.end(), column) != columns.end())
-      file.fail(cell.at, {}, kTwoColumns, {std::string(column)});
+    // `length (mm)`, `length [inch]`
+    const std::size_t bracket = std::min(cell.text.find_first_of("(["), cell.text.size());
+    const std::string written = cell.text.substr(0, cell.text.substr(0, bracket).find_last_not_of(' ') + 1);
+    HeadedColumn column{column_called(written), {}};
+    if (column.name.empty() && !cell.text.empty()) ignored.push_back(configuration::shortened(cell.text));
+    if (!column.name.empty() && has(column.name)) file.fail(cell.at, {}, kTwoColumns, {std::string(column.name)});
+    if (!column.name.empty() && bracket < cell.text.size()) {
+      const std::size_t end = cell.text.find_first_of(")]", bracket);
+      const std::string unit = in_small_letters(cell.text.substr(bracket + 1, end - bracket - 1));
+      column.millimeters = millimeters_in(unit);
+      const bool is_angle = unit == "deg" || unit == "degrees" || unit == "gradi" || unit == "\xC2\xB0";
+      if (!column.millimeters && !is_angle)
+        file.fail(cell.at, std::string(column.name), problems::kUnknownUnit,
+                  {configuration::shortened(unit), std::string("mm, inch")});
+    }
     columns.push_back(column);
   }
-  if (std::all_of(columns.begin(), columns.end(), [](std::string_view column) { return column.empty(); }))
+  if (std::all_of(columns.begin(), columns.end(), [](const HeadedColumn& column) { return column.name.empty(); }))
     file.fail(header.front().at, {}, kNoHeader);
+  constexpr std::pair<std::string_view, std::string_view> kSameFacts[] = {
+      {kPlace, "head"}, {kPlace, "holder"}, {kPlace, "tool"}, {kDiameter, "radius"}};
+  for (const auto& [one, other] : kSameFacts)
+    if (has(one) && has(other))
+      file.fail(header.front().at, {}, kTwoColumnsOfOneFact, {std::string(one), std::string(other)});
   return columns;
 }
 
@@ -390,15 +432,20 @@ std::vector<LibraryTool> read_columns(LibraryFile& file, double millimeters, std
     if (file.mistakes().empty()) file.fail(0, {}, kNoHeader);
     return {};
   }
-  const std::vector<std::string_view> columns = read_header(*header, file, ignored);
+  const std::vector<HeadedColumn> columns = read_header(*header, file, ignored);
   if (!file.mistakes().empty()) return {};
   std::vector<LibraryTool> tools;
   while (const std::optional<CsvRow> row = rows.next()) {
     ToolRow tool(file, millimeters);
     const std::size_t count = std::min(row->size(), columns.size());
+    for (std::size_t i = count; i < row->size(); ++i)
+      if (!(*row)[i].text.empty()) {
+        file.fail((*row)[i].at, {}, kTooManyCells);
+        break;
+      }
     for (std::size_t i = 0; i < count; ++i)
-      if (columns[i] == kUnit) tool.read_unit((*row)[i]);
-    for (std::size_t i = 0; i < count; ++i) tool.read(columns[i], (*row)[i]);
+      if (columns[i].name == kUnit) tool.read_unit((*row)[i]);
+    for (std::size_t i = 0; i < count; ++i) tool.read(columns[i].name, columns[i].millimeters, (*row)[i]);
     tools.push_back(tool.take());
   }
   return tools;

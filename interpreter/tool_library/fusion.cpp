@@ -12,7 +12,7 @@ using Kind = JsonValue::Kind;
 
 namespace {
 
-/// How many mm a unit has; none after a mistake. A library without one means mm.
+/// How many mm a unit has; none after a mistake.
 std::optional<double> unit_of(const JsonValue& object, const std::string& path, double otherwise, LibraryFile& file) {
   const JsonValue* const value = member_of(object, "unit");
   if (value == nullptr) return otherwise;
@@ -82,14 +82,15 @@ void set_shape(std::string_view type, const JsonTool& geometry, LibraryTool& rea
   if (tool.shape.empty() && !tool.profile) read.kind_without_shape = type;
 }
 
-std::optional<LibraryTool> read_tool(const JsonValue& value, const std::string& path, LibraryFile& file) {
+std::optional<LibraryTool> read_tool(const JsonValue& value, const std::string& path, double otherwise,
+                                     LibraryFile& file) {
   if (value.kind != Kind::Object) {
     file.fail(value.at, path, problems::kNeedsObject);
     return std::nullopt;
   }
   const std::string type = text_of(value, "type");
   if (type == "holder") return std::nullopt;
-  const std::optional<double> unit = unit_of(value, path, 1, file);
+  const std::optional<double> unit = unit_of(value, path, otherwise, file);
   if (!unit) return std::nullopt;
   LibraryTool read;
   Tool& tool = read.tool;
@@ -126,12 +127,13 @@ std::optional<LibraryTool> read_tool(const JsonValue& value, const std::string& 
 
 }  // namespace
 
-std::vector<LibraryTool> read_fusion(const JsonValue& library, LibraryFile& file) {
+std::vector<LibraryTool> read_fusion(const JsonValue& library, double millimeters, LibraryFile& file) {
   std::vector<LibraryTool> tools;
   const JsonValue& data = *member_of(library, "data");
   if (data.kind != Kind::List) file.fail(data.at, "data", problems::kNeedsList);
   for (std::size_t i = 0; i < data.elements.size(); ++i)
-    if (auto tool = read_tool(data.elements[i], fmt::format("data[{}]", i), file)) tools.push_back(*std::move(tool));
+    if (auto tool = read_tool(data.elements[i], fmt::format("data[{}]", i), millimeters, file))
+      tools.push_back(*std::move(tool));
   return tools;
 }
 

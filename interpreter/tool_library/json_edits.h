@@ -29,6 +29,8 @@ class JsonEdits {
   explicit JsonEdits(std::string_view text);
 
   void replace(const configuration::JsonValue& value, std::string text);
+  /// Removes the bytes from one place up to another.
+  void remove(std::size_t from, std::size_t to) { edits_.push_back({from, to - from, {}}); }
   /// Adds members after the last one of an object, each on a line of its own where those before are, or where there is
   /// none. At most once for each object.
   void add_members(const configuration::JsonValue& object, const std::vector<NewMember>& members);

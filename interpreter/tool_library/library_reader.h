@@ -89,7 +89,8 @@ std::vector<const configuration::Key*> tool_keys();
 const configuration::Key* tool_key(std::string_view name);
 
 // One reader for each format; mistakes are in the file.
-std::vector<LibraryTool> read_fusion(const configuration::JsonValue& library, LibraryFile& file);
+/// Tools that name no unit count in one of so many mm.
+std::vector<LibraryTool> read_fusion(const configuration::JsonValue& library, double millimeters, LibraryFile& file);
 std::vector<LibraryTool> read_camotics(const configuration::JsonValue& table, LibraryFile& file);
 /// A tool of FreeCAD, which has no number.
 std::optional<LibraryTool> read_freecad_bit(const configuration::JsonValue& bit, LibraryFile& file);

@@ -1,6 +1,7 @@
 #include "interpreter/tool_library/new_machine.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <istream>
 #include <ostream>
@@ -141,7 +142,8 @@ class Questionnaire {
     const char* const begin = answer.data() + (answer.starts_with('+') ? 1 : 0);
     double number = 0;
     const auto read = fast_float::from_chars(begin, answer.data() + answer.size(), number);
-    if (read.ec != std::errc{} || read.ptr != answer.data() + answer.size()) return std::nullopt;
+    if (read.ec != std::errc{} || read.ptr != answer.data() + answer.size() || !std::isfinite(number))
+      return std::nullopt;
     // As it was written, 0.10 as 0.1, 5 as 5.
     return ordered_json::parse(fmt::format("{}", number), nullptr, false);
   }
@@ -176,7 +178,8 @@ class Questionnaire {
 bool has_machine(std::string_view text) {
   const auto parsed = configuration::parse_json(text);
   const auto* const root = std::get_if<configuration::JsonValue>(&parsed);
-  return root != nullptr && member_of(*root, "machine") != nullptr;
+  const auto* const machine = root == nullptr ? nullptr : member_of(*root, "machine");
+  return machine != nullptr && !machine->members.empty();
 }
 
 std::optional<std::string> ask_for_machine(std::string_view text, std::istream& answers, std::ostream& questions,
@@ -187,7 +190,12 @@ std::optional<std::string> ask_for_machine(std::string_view text, std::istream& 
       Questionnaire(answers, questions, language).machine(std::string(edits.line_end()));
   if (!machine) return std::nullopt;
   const auto parsed = configuration::parse_json(whole);
-  edits.add_members(std::get<configuration::JsonValue>(parsed), {{"machine", *std::move(machine)}});
+  const auto& root = std::get<configuration::JsonValue>(parsed);
+  if (const auto* const known = member_of(root, "machine")) {
+    edits.replace(*known, *std::move(machine));  // It is empty.
+  } else {
+    edits.add_members(root, {{"machine", *std::move(machine)}});
+  }
   return edits.apply();
 }
 

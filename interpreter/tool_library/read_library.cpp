@@ -49,6 +49,11 @@ std::string ending_of(std::string_view name) {
   return ending;
 }
 
+/// Of Windows-1252 from 0x80 to 0x9F, where Unicode has control characters; U+FFFD for five that mean nothing.
+constexpr std::u32string_view kWindowsLetters =
+    U"\u20AC\uFFFD\u201A\u0192\u201E\u2026\u2020\u2021\u02C6\u2030\u0160\u2039\u0152\uFFFD\u017D\uFFFD"
+    U"\uFFFD\u2018\u2019\u201C\u201D\u2022\u2013\u2014\u02DC\u2122\u0161\u203A\u0153\uFFFD\u017E\u0178";
+
 /// What spreadsheets of Windows write where they do not write UTF-8: the characters of Windows-1252, most of which have
 /// the numbers of Unicode.
 std::string to_utf8(std::string bytes) {
@@ -62,11 +67,16 @@ std::string to_utf8(std::string bytes) {
     std::string converted;
     for (const char each : bytes) {
       const auto byte = static_cast<unsigned char>(each);
-      if (byte < 0x80) {
+      const char32_t letter = byte >= 0x80 && byte < 0xA0 ? kWindowsLetters[byte - 0x80] : byte;
+      if (letter < 0x80) {
         converted += each;
+      } else if (letter < 0x800) {
+        converted += static_cast<char>(0xC0 | (letter >> 6));
+        converted += static_cast<char>(0x80 | (letter & 0x3F));
       } else {
-        converted += static_cast<char>(0xC0 | (byte >> 6));
-        converted += static_cast<char>(0x80 | (byte & 0x3F));
+        converted += static_cast<char>(0xE0 | (letter >> 12));
+        converted += static_cast<char>(0x80 | ((letter >> 6) & 0x3F));
+        converted += static_cast<char>(0x80 | (letter & 0x3F));
       }
     }
     return converted;
@@ -112,11 +122,11 @@ bool is_table_of_camotics(const JsonValue& value) {
          });
 }
 
-void read_json(LibraryFile& file, Library& library) {
+void read_json(LibraryFile& file, double millimeters, Library& library) {
   const std::optional<JsonValue> value = object_in(file);
   if (!value) return;
   if (member_of(*value, "data") != nullptr) {
-    library.tools = read_fusion(*value, file);
+    library.tools = read_fusion(*value, millimeters, file);
   } else if (is_table_of_camotics(*value)) {
     library.tools = read_camotics(*value, file);
   } else {
@@ -184,7 +194,7 @@ Library read_bytes_of(const std::filesystem::path& path, const std::string& name
   LibraryFile file(name, to_utf8(std::move(bytes)), language);
   const double millimeters = is_in_inches ? kInch : 1;
   if (ending == ".json" || ending == ".camotics" || ending == ".tools") {
-    read_json(file, library);
+    read_json(file, millimeters, library);
   } else if (ending == ".fctl") {
     read_freecad_library(path, file, library);
   } else if (ending == ".fctb") {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -44,6 +45,7 @@ std::string place_of(const ToolCode& code) { return fmt::format("T{}{:02}{:03}",
 
 /// What a tool of the library is called in messages.
 std::string label_of(const LibraryTool& tool) {
+  if (tool.tool.name.empty() && tool.number.empty() && tool.has_place) return place_of(tool.tool.code);
   if (tool.tool.name.empty()) return tool.number.empty() ? "?" : tool.number;
   return text::printable(tool.tool.name);
 }
@@ -204,7 +206,7 @@ class Importer {
     const auto index = index_.find(place->second);
     const Tool* const old = index == index_.end() ? nullptr : &(*machine_.tools)[index->second];
     Tool tool = read.tool;
-    const std::optional<ToolImport::HolderChange> holder = holder_of(read, tool);
+    const std::optional<ToolImport::NewHolder> holder = holder_of(read, tool);
     if (holder) set_holder(holder->holder);
     Tool whole = merged(old == nullptr ? Tool() : *old, tool);
     whole.code = place->second;
@@ -230,9 +232,8 @@ class Importer {
   }
 
   /// The holder of a tool, where the machine lacks it or has another of this name; names it in the tool.
-  std::optional<ToolImport::HolderChange> holder_of(const LibraryTool& read, Tool& tool) {
+  std::optional<ToolImport::NewHolder> holder_of(const LibraryTool& read, Tool& tool) {
     if (!read.holder) return std::nullopt;
-    const auto same_rows = [&](const NamedRows& each) { return each.rows == read.holder->rows; };
     const std::string& name = holder_names_.at({read.holder->name, read.holder->rows});
     tool.body = name;
     if (std::any_of(import_.holders.begin(), import_.holders.end(),
@@ -240,19 +241,31 @@ class Importer {
       return std::nullopt;  // With another tool.
     const auto known = std::find_if(before_.holders.begin(), before_.holders.end(),
                                     [&](const NamedRows& each) { return each.name == name; });
-    if (known != before_.holders.end() && same_rows(*known)) return std::nullopt;
-    return ToolImport::HolderChange{{name, read.holder->rows}, known == before_.holders.end()};
+    if (known != before_.holders.end()) return std::nullopt;
+    return ToolImport::NewHolder{{name, read.holder->rows}};
   }
 
-  /// Holders of one name but another shape get a number behind it, the same each time.
+  /// A holder of the machine never changes, since other tools may be in it: one of the library with its name but
+  /// another shape gets a number behind the name, the same each time.
   void name_holders() {
-    std::map<std::string, int> copies;
+    std::set<std::string> of_library;
+    for (const LibraryTool& tool : library_.tools)
+      if (tool.holder) of_library.insert(tool.holder->name);
+    std::map<std::string, configuration::NumberRows> taken;
+    for (const NamedRows& holder : before_.holders) taken.emplace(holder.name, holder.rows);
     for (const LibraryTool& tool : library_.tools) {
       if (!tool.holder) continue;
-      const auto [name, is_new] = holder_names_.try_emplace({tool.holder->name, tool.holder->rows}, tool.holder->name);
+      const auto [place, is_new] = holder_names_.try_emplace({tool.holder->name, tool.holder->rows});
       if (!is_new) continue;
-      const int copy = ++copies[tool.holder->name];
-      if (copy > 1) name->second += fmt::format(" {}", copy);
+      std::string name = tool.holder->name;
+      for (int copy = 2;; ++copy) {
+        const bool is_of_another = copy > 2 && of_library.contains(name);
+        const auto known = taken.find(name);
+        if (!is_of_another && (known == taken.end() || known->second == tool.holder->rows)) break;
+        name = fmt::format("{} {}", tool.holder->name, copy);
+      }
+      taken.emplace(name, tool.holder->rows);
+      place->second = std::move(name);
     }
   }
 
@@ -352,9 +365,9 @@ std::string quoted(const std::string& name) {
 std::string shown_import(const ToolImport& import, Language language) {
   std::string shown;
   const auto line = [&](char sign, const std::string& text) { shown += fmt::format("{} {}\n", sign, text); };
-  for (const ToolImport::HolderChange& change : import.holders)
-    line(change.is_new ? '+' : '~', dialect::format(kHolder, language, quoted(change.holder.name).substr(1)) + ": " +
-                                        in_one_line(in_json(change.holder.rows)));
+  for (const ToolImport::NewHolder& change : import.holders)
+    line('+', dialect::format(kHolder, language, quoted(change.holder.name).substr(1)) + ": " +
+                  in_one_line(in_json(change.holder.rows)));
   std::size_t fresh = 0;
   for (const ToolImport::ImportedTool& change : import.changes) {
     fresh += change.is_new ? 1 : 0;
@@ -448,14 +461,8 @@ class ImportWriter {
 
   void change_holders(const JsonValue& holders) {
     std::vector<NewMember> added;
-    for (const ToolImport::HolderChange& change : import_.holders) {
-      std::string rows = in_one_line(in_json(change.holder.rows));
-      if (const JsonValue* const known = member_of(holders, change.holder.name)) {
-        edits_.replace(*known, std::move(rows));
-      } else {
-        added.push_back({change.holder.name, std::move(rows)});
-      }
-    }
+    for (const ToolImport::NewHolder& each : import_.holders)
+      added.push_back({each.holder.name, in_one_line(in_json(each.holder.rows))});
     edits_.add_members(holders, added);
   }
 
@@ -474,11 +481,20 @@ class ImportWriter {
   }
 
   void change_tool(const JsonValue& tool, const ToolImport::ImportedTool& change) {
-    const bool loses_keys = std::any_of(change.values.begin(), change.values.end(),
-                                        [](const ToolImport::Value& value) { return value.after.empty(); });
-    if (loses_keys) return edits_.replace(tool, in_one_line(in_json({change.tool}).front()));
+    // Members go with the comma before them. Where that cannot be, the tool is written anew.
+    const auto is_lost = [&](const std::string& key) {
+      return std::any_of(change.values.begin(), change.values.end(),
+                         [&](const ToolImport::Value& value) { return value.key == key && value.after.empty(); });
+    };
+    const bool adds_keys = std::any_of(change.values.begin(), change.values.end(),
+                                       [](const ToolImport::Value& value) { return value.before.empty(); });
+    if (is_lost(tool.members.front().key) || (adds_keys && is_lost(tool.members.back().key)))
+      return edits_.replace(tool, in_one_line(in_json({change.tool}).front()));
+    for (std::size_t i = 1; i < tool.members.size(); ++i)
+      if (is_lost(tool.members[i].key)) edits_.remove(tool.members[i - 1].value.end, tool.members[i].value.end);
     std::vector<NewMember> added;
     for (const ToolImport::Value& value : change.values) {
+      if (value.after.empty()) continue;
       if (const JsonValue* const known = member_of(tool, value.key)) {
         edits_.replace(*known, value.after);
       } else {
@@ -502,6 +518,7 @@ std::optional<std::string> with_import(std::string_view text, const std::filesys
   const auto* const root = std::get_if<JsonValue>(&parsed);
   if (root == nullptr || root->kind != JsonValue::Kind::Object) return std::nullopt;
   std::string changed = ImportWriter(whole, *root, import).write();
+  if (changed.size() > configuration::kLongestFile) return std::nullopt;
   const configuration::ReadConfiguration read = configuration::read_configuration(changed, folder);
   if (!read.mistakes.empty()) return std::nullopt;
   for (const ToolImport::ImportedTool& change : import.changes) {

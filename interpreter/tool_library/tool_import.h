@@ -32,9 +32,9 @@ struct ToolImport {
                              ///< `left_out_name`.
     std::string left_out_name;
   };
-  struct HolderChange {
+  /// A holder that comes in. Those of the machine stay as they are.
+  struct NewHolder {
     configuration::NamedRows holder;
-    bool is_new = false;
   };
   /// A tool of the library that does not come in.
   struct Refused {
@@ -45,7 +45,7 @@ struct ToolImport {
   };
 
   std::vector<ImportedTool> changes;  ///< In the order of T.
-  std::vector<HolderChange> holders;
+  std::vector<NewHolder> holders;
   std::size_t unchanged = 0;
   std::vector<configuration::Tool> kept;  ///< Of the machine, unknown to the library.
   std::vector<Refused> refused;           ///< In the order of the library.
@@ -73,7 +73,7 @@ std::vector<std::string> tool_key_names();
 std::string shown_import(const ToolImport& import, dialect::Language language);
 
 /// The text of an isocnc.json, or of a machine's file, with the import done; comments and layout stay. An empty text
-/// becomes a new file. None if the result would be no valid configuration, which is a defect of this program.
+/// becomes a new file. None if the result would be no valid configuration, as one that is too large to be read again.
 std::optional<std::string> with_import(std::string_view text, const std::filesystem::path& folder,
                                        const ToolImport& import);
 

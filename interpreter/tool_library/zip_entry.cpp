@@ -47,14 +47,16 @@ static std::optional<std::string> unpacked(std::string_view archive, std::size_t
   if (is_encrypted || size > limit || !has_signature(archive, header, "PK\x03\x04")) return std::nullopt;
   const std::size_t begin =
       header + kLocalHeader + number_at(archive, header + 26, 2) + number_at(archive, header + 28, 2);
-  if (begin > archive.size() || packed_size > archive.size() - begin || packed_size > INT_MAX || size > INT_MAX)
+  if (begin > archive.size() || packed_size > archive.size() - begin || packed_size > INT_MAX - 8 || size > INT_MAX)
     return std::nullopt;
   const std::string_view packed = archive.substr(begin, packed_size);
   if (method == kStored) return packed_size == size ? std::optional(std::string(packed)) : std::nullopt;
   if (method != kDeflated) return std::nullopt;
   std::string file(size, '\0');
-  const int written = stbi_zlib_decode_noheader_buffer(file.data(), static_cast<int>(size), packed.data(),
-                                                       static_cast<int>(packed.size()));
+  std::string input(packed);
+  input.append(8, '\0');  // The decoder reads ahead.
+  const int written = stbi_zlib_decode_noheader_buffer(file.data(), static_cast<int>(size), input.data(),
+                                                       static_cast<int>(input.size()));
   return written >= 0 && static_cast<std::size_t>(written) == size ? std::optional(std::move(file)) : std::nullopt;
 }
 

@@ -148,7 +148,7 @@ export async function use(): Promise<number> {
   writeFileSync(join(folder, 'use.ts'), source);
   const tsc = new URL('../../web/node_modules/typescript/bin/tsc', import.meta.url).pathname;
   for (const options of [['--module', 'nodenext'], ['--module', 'es2022', '--moduleResolution', 'bundler'], ['--module', 'es2022', '--moduleResolution', 'node']]) {
-    const compiled = spawnSync(process.execPath, [tsc, '--noEmit', '--strict', '--target', 'es2022', '--lib', 'es2022,dom', '--types', '', ...options, 'use.ts'], { cwd: folder, encoding: 'utf8' });
+    const compiled = spawnSync(process.execPath, [tsc, '--noEmit', '--strict', '--target', 'es2022', '--lib', 'es2022,dom', ...options, 'use.ts'], { cwd: folder, encoding: 'utf8' });
     assert.equal(compiled.stdout, '', options.join(' '));
   }
 });

@@ -25,6 +25,7 @@ using dialect::Language;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using namespace std::string_view_literals;
 
 Library read(const std::string& name, std::string_view text) {
   return read_library_text(name, std::string(text), false, Language::English);
@@ -145,6 +146,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"csv_tabs_inches", "a.tsv", "number\tname\tlength\tradius\tunit\n1\tmill\t4\t0.5\tinch\n",
              "+ T101001 \"mill\": length 101.6, radius 12.7\n"},
         Case{"csv_of_windows", "a.csv", "T;nome\nT101001;citt\xE0\n", "+ T101001 \"citt\xC3\xA0\"\n"},
+        Case{"csv_with_a_euro", "a.csv", "T;nome\nT101001;5 \x80\n", "+ T101001 \"5 \xE2\x82\xAC\"\n"},
+        Case{"csv_in_inches", "a.csv", "T,length (inch),diameter[mm]\nT101001,4,20\n",
+             "+ T101001: length 101.6, radius 10\n"},
         Case{"presetter", "a.csv",
              "T;nome;lunghezza;raggio;lunghezza misurata;raggio misurato\nT101001;mill;100;10;99,87;9,98\n",
              "+ T101001 \"mill\": length 99.87, radius 9.98\n"}),
@@ -237,6 +241,11 @@ TEST(ToolImport, RefusesBrokenLibraries) {
       {"a.csv", "T;unit\nT101001;ell\n", "unit: ell is no unit known here: mm, inch"},
       {"a.csv", "T;name\nT101001;\"open\n", "a.csv:2:9: error: a quote without its closing one"},
       {"a.csv", "T;profile\nT101001;0 1 2\n", "profile: an outline is pairs of numbers"},
+      {"a.csv", "T;length;radius\nT101001;100;4;25\n",
+       "a.csv:2:15: error: a row with more cells than there are columns"},
+      {"a.csv", "T;length (ell)\n", "a.csv:1:3: error: length: ell is no unit known here: mm, inch"},
+      {"a.csv", "T;head;length\n", "a.csv:1:1: error: the columns T and head say the same"},
+      {"a.csv", "T;radius;diameter\n", "a.csv:1:1: error: the columns diameter and radius say the same"},
       {"a.tools", "PK", "a.tools: no archive that holds a tools.json, or a damaged one"},
       {"a.xml", "<tools/>", "a.xml: no library of tools by its name"},
   };
@@ -326,6 +335,45 @@ TEST(ToolImport, KeepsWhatIsAskedFor) {
   const std::string shown = shown_import(import, Language::English);
   EXPECT_THAT(shown, HasSubstr("~ T101001 \"cutter 20\": radius 10 -> 9\n"));
   EXPECT_THAT(shown, HasSubstr("~ T102002 \"ball\": length 80, radius 3\n"));  // It had none.
+}
+
+// A holder of the machine may hold other tools: it stays, and so does a holder of the library that is called as a
+// number would call another.
+TEST(ToolImport, HoldersOfTheMachineStay) {
+  const auto tool = [](int number, std::string_view holder, double diameter) {
+    return fmt::format(
+        R"({{"description": "t{0}", "type": "drill", "unit": "millimeters", "geometry": {{"DC": 6, "LB": 30, "SIG": 118}}, "post-process": {{"number": {0}}},
+      "holder": {{"description": "{1}", "segments": [{{"height": 30, "lower-diameter": {2}, "upper-diameter": {2}}}]}}}})",
+        number, holder, diameter);
+  };
+  const Library library = read("a.json", fmt::format(R"({{"data": [{}, {}, {}, {}]}})", tool(1, "H", 30),
+                                                     tool(2, "H", 31), tool(3, "H 2", 50), tool(4, "M", 9)));
+  const ToolMap map = map_of({{"1", 101001}, {"2", 101002}, {"3", 101003}, {"4", 101004}});
+  constexpr std::string_view kMachine =
+      R"({"machine": {"holders": {"M": [[40, 60, 60]]}, "tools": [{"head": 1, "holder": 9, "tool": 9, "length": 99, "body": "M"}]}})";
+  const auto import = std::get<ToolImport>(import_tools(machine_of(kMachine), library, {.map = map}));
+  std::vector<std::string> bodies;
+  for (const auto& each : import.changes) bodies.push_back(each.tool.body);
+  EXPECT_THAT(bodies, ElementsAre("H", "H 3", "H 2", "M 2"));
+  const std::string text = with_import(kMachine, "/shop", import).value_or("");
+  EXPECT_THAT(text, HasSubstr(R"("M": [[40, 60, 60]])"));
+  EXPECT_THAT(shown(machine_of(text), library, map), HasSubstr("0 new, 0 changed, 4 as before"));
+}
+
+TEST(ToolImport, ReadsArchivesWhateverTheirSize) {
+  // Of Python's zipfile: the last byte of the packed text is the last one of its stream.
+  constexpr std::string_view kArchive{
+      "\120\113\003\004\024\000\000\000\010\000\000\000\041\134\234\062\071\201\144\000\000\000\201\000\000\000\012\000"
+      "\000\000\164\157\157\154\163\056\152\163\157\156\065\212\073\012\200\100\014\104\257\042\251\265\260\261\260\325"
+      "\133\210\205\272\101\002\356\207\044\026\262\354\335\215\242\325\314\274\067\031\334\242\013\364\325\224\301\241"
+      "\154\114\111\051\006\003\340\351\070\240\256\100\257\204\317\166\374\201\063\220\376\007\362\250\310\362\340\035"
+      "\243\015\276\114\145\030\007\213\256\030\116\121\264\111\034\067\024\171\125\070\375\212\154\265\055\145\056\067"
+      "\120\113\001\002\024\003\024\000\000\000\010\000\000\000\041\134\234\062\071\201\144\000\000\000\201\000\000\000"
+      "\012\000\000\000\000\000\000\000\000\000\000\000\200\001\000\000\000\000\164\157\157\154\163\056\152\163\157\156"
+      "\120\113\005\006\000\000\000\000\001\000\001\000\070\000\000\000\214\000\000\000\000\000"sv};
+  const Library library = read("a.tools", kArchive);
+  EXPECT_THAT(library.mistakes, IsEmpty());
+  EXPECT_EQ(library.tools.size(), 1U);
 }
 
 TEST(ToolImport, HoldersOfOneNameStayApart) {
