@@ -17,6 +17,7 @@
 #include "interpreter/system/replace_file.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/system/user_language.h"
+#include "interpreter/text/lists.h"
 #include "interpreter/text/unicode.h"
 #include "interpreter/tool_library/columns.h"
 #include "interpreter/tool_library/new_machine.h"
@@ -54,16 +55,6 @@ constexpr Text kDefect{"with these tools {} would be too large, or not valid; no
 
 void refuse_tools(std::string_view why) { command_line::complain("isorun", why); }
 
-std::vector<std::string> words_between_commas(std::string_view text) {
-  std::vector<std::string> words;
-  while (!text.empty()) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    if (comma > 0) words.emplace_back(text.substr(0, comma));
-    text.remove_prefix(std::min(comma + 1, text.size()));
-  }
-  return words;
-}
-
 /// A file that is to be changed, or made.
 class TargetFile {
  public:
@@ -80,10 +71,8 @@ class TargetFile {
     if (!replacement_) return std::string();
     auto bytes = system::read_bytes(path_, configuration::kLongestFile, language);
     if (auto* const text = std::get_if<std::string>(&bytes)) return std::move(*text);
-    const auto& problem = std::get<system::FileBytesProblem>(bytes);
-    refuse_tools(fmt::format(
-        "{}: {}", name(),
-        problem.message.empty() ? configuration::mistakes::kNoFile.in(language) : std::string_view(problem.message)));
+    refuse_tools(tool_library::unread_message(path_, std::get<system::FileBytesProblem>(bytes),
+                                              configuration::mistakes::kTooLarge, language));
     return std::nullopt;
   }
 
@@ -131,7 +120,9 @@ std::optional<FoundMachine> find_machine(const configuration::ConfigurationSourc
 ExitStatus import_tools(const ToolCommandOptions& options, const FoundMachine& found) {
   const Language language = found.language;
   const std::vector<std::string> keys = tool_library::tool_key_names();
-  const std::vector<std::string> kept = words_between_commas(options.kept);
+  std::vector<std::string> kept;
+  for (const std::string_view each : text::split_at_commas(options.kept))
+    if (!each.empty()) kept.emplace_back(each);
   for (const std::string& key : kept)
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
       refuse_tools(dialect::format(kNoKey, language, text::printable(key), fmt::format("{}", fmt::join(keys, ", "))));

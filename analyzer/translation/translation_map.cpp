@@ -219,13 +219,8 @@ std::variant<TranslationMap, std::string> load_translation_map(const std::filesy
                                                                dialect::Language language) {
   const std::string name = text::printable(system::generic_name(file));
   auto bytes = system::read_bytes(file, configuration::kLongestFile, language);
-  if (const auto* problem = std::get_if<system::FileBytesProblem>(&bytes)) {
-    using Kind = system::FileBytesProblem::Kind;
-    const std::string_view why = problem->kind == Kind::TooLarge     ? configuration::mistakes::kTooLarge.in(language)
-                                 : problem->kind == Kind::NotRegular ? configuration::mistakes::kNoFile.in(language)
-                                                                     : std::string_view(problem->message);
-    return fmt::format("isofmt: {}: {}", name, why);
-  }
+  if (const auto* problem = std::get_if<system::FileBytesProblem>(&bytes))
+    return "isofmt: " + tool_library::unread_message(file, *problem, configuration::mistakes::kTooLarge, language);
   const auto& text = std::get<std::string>(bytes);
   auto map = read_translation_map(text);
   if (auto* read = std::get_if<TranslationMap>(&map)) return std::move(*read);

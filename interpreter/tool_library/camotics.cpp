@@ -36,8 +36,7 @@ static std::optional<LibraryTool> read_tool(const JsonMember& member, const std:
   const double tip = geometry.length("snub_diameter").value_or(0) / 2;
   if (diameter) read.tool.radius = tidy(*diameter / 2);
   read.tool.cut_length = length;
-  std::string shape = text_of(value, "shape");
-  for (char& letter : shape) letter = static_cast<char>(letter >= 'A' && letter <= 'Z' ? letter + ('a' - 'A') : letter);
+  const std::string shape = in_small_letters(text_of(value, "shape"));
   if (shape == "cylindrical" || shape.empty()) {
     read.tool.shape = "flat";
   } else if (shape == "ballnose") {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/configuration/keys.h"
+#include "interpreter/running/event.h"
 #include "interpreter/tool_library/library_reader.h"
 #include "interpreter/tool_library/tool_map.h"
 
@@ -86,12 +87,6 @@ constexpr Alias kAliases[] = {{"t", kPlace},
                               {"lunghezza misurata", kMeasuredLength.en},
                               {"measured radius", kMeasuredRadius.en},
                               {"raggio misurato", kMeasuredRadius.en}};
-
-std::string in_small_letters(std::string_view text) {
-  std::string small(text);
-  for (char& letter : small) letter = static_cast<char>(letter >= 'A' && letter <= 'Z' ? letter + ('a' - 'A') : letter);
-  return small;
-}
 
 /// What a column is called here, however it is written; empty if nothing is.
 std::string_view column_called(std::string_view written) {
@@ -419,10 +414,6 @@ class CellWriter {
   bool is_first_ = true;
 };
 
-std::string place_of(const Tool& tool) {
-  return fmt::format("T{}{:02}{:03}", tool.code.head, tool.code.holder, tool.code.tool);
-}
-
 }  // namespace
 
 std::vector<LibraryTool> read_columns(LibraryFile& file, double millimeters, std::vector<std::string>& ignored) {
@@ -462,7 +453,7 @@ std::string columns_of(const std::vector<Tool>& tools, Language language) {
   Configuration configuration;  // Keys read from it.
   for (const Tool& tool : tools) {
     configuration.machine.tools = {tool};
-    cells.add(place_of(tool));
+    cells.add(running::tool_name(tool.code));
     for (const Key* key : keys) {
       if (is_place(key)) continue;
       const configuration::ValueSlot slot = key->slot(configuration, {0, 0});
@@ -492,7 +483,7 @@ std::string presetter_list(const std::vector<Tool>& tools, Language language) {
   cells.add(kMeasuredRadius.in(language));
   cells.end_row();
   for (const Tool& tool : tools) {
-    cells.add(place_of(tool));
+    cells.add(running::tool_name(tool.code));
     cells.add(tool.name);
     cells.add(tool.length);
     cells.add(tool.radius);

@@ -79,8 +79,7 @@ std::string shape_name(const JsonValue& bit) {
   std::string name = text_of(bit, "shape");
   name.erase(0, name.find_last_of("/\\") + 1);
   name.resize(std::min(name.find('.'), name.size()));
-  for (char& letter : name) letter = static_cast<char>(letter >= 'A' && letter <= 'Z' ? letter + ('a' - 'A') : letter);
-  return name;
+  return in_small_letters(name);
 }
 
 void set_shape(std::string_view shape, const Parameters& parameters, LibraryTool& read) {

@@ -20,6 +20,12 @@ void LibraryFile::fail(std::size_t at, std::string key, const dialect::Text& tex
   mistakes_.push_back(configuration::located_message(name_, configuration::place_of(at, text_), mistake, language_));
 }
 
+std::string in_small_letters(std::string_view text) {
+  std::string small(text);
+  for (char& letter : small) letter = static_cast<char>(letter >= 'A' && letter <= 'Z' ? letter + ('a' - 'A') : letter);
+  return small;
+}
+
 double tidy(double length) { return std::round(length * 1e5) / 1e5; }
 
 const JsonValue* member_of(const JsonValue& object, std::string_view key) {

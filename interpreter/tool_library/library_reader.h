@@ -50,6 +50,9 @@ inline constexpr dialect::Text kNeedsAngle{"{0} is no angle of a tool: above 0 a
 inline constexpr dialect::Text kUnknownUnit{"{0} is no unit known here: {1}", "{0} non è un'unità nota qui: {1}"};
 }  // namespace problems
 
+/// The text with its ASCII letters small.
+std::string in_small_letters(std::string_view text);
+
 /// A length in mm without the noise of a conversion.
 double tidy(double length);
 

@@ -9,6 +9,7 @@
 #include "interpreter/system/source_file.h"
 #include "interpreter/text/unicode.h"
 #include "interpreter/tool_library/library_reader.h"
+#include "interpreter/tool_library/tool_map.h"
 #include "interpreter/tool_library/zip_entry.h"
 
 namespace isocnc::tool_library {
@@ -43,10 +44,7 @@ constexpr Text kMissingBit{"{0} is neither beside the library nor in ../Bit",
 
 std::string ending_of(std::string_view name) {
   const std::size_t point = name.rfind('.');
-  std::string ending(point == std::string_view::npos ? "" : name.substr(point));
-  for (char& letter : ending)
-    letter = static_cast<char>(letter >= 'A' && letter <= 'Z' ? letter + ('a' - 'A') : letter);
-  return ending;
+  return point == std::string_view::npos ? "" : in_small_letters(name.substr(point));
 }
 
 /// Of Windows-1252 from 0x80 to 0x9F, where Unicode has control characters; U+FFFD for five that mean nothing.
@@ -89,12 +87,7 @@ std::optional<std::string> read_file(const std::filesystem::path& path, Language
                                      std::vector<std::string>& mistakes) {
   auto bytes = system::read_bytes(path, kLargestLibrary, language);
   if (auto* const read = std::get_if<std::string>(&bytes)) return std::move(*read);
-  const auto& problem = std::get<system::FileBytesProblem>(bytes);
-  using Problem = system::FileBytesProblem::Kind;
-  const std::string_view why = problem.kind == Problem::TooLarge     ? kTooLarge.in(language)
-                               : problem.kind == Problem::NotRegular ? configuration::mistakes::kNoFile.in(language)
-                                                                     : std::string_view(problem.message);
-  mistakes.push_back(fmt::format("{}: {}", text::printable(system::generic_name(path)), why));
+  mistakes.push_back(unread_message(path, std::get<system::FileBytesProblem>(bytes), kTooLarge, language));
   return std::nullopt;
 }
 

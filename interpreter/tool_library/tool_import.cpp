@@ -14,6 +14,7 @@
 #include "interpreter/configuration/show.h"
 #include "interpreter/configuration/tool_bodies.h"
 #include "interpreter/dialect/format.h"
+#include "interpreter/running/event.h"
 #include "interpreter/text/unicode.h"
 #include "interpreter/tool_library/json_edits.h"
 #include "interpreter/tool_library/library_reader.h"
@@ -28,6 +29,7 @@ using dialect::Language;
 using dialect::Text;
 using execution::ToolCode;
 using nlohmann::ordered_json;
+using running::tool_name;
 
 namespace {
 
@@ -41,11 +43,9 @@ constexpr Text kNeedsLength{"its shape is left out, since its length from the sp
 constexpr Text kKindWithoutShape{"no shape is known for what the library calls {0}",
                                  "non c'è una forma per ciò che la libreria chiama {0}"};
 
-std::string place_of(const ToolCode& code) { return fmt::format("T{}{:02}{:03}", code.head, code.holder, code.tool); }
-
 /// What a tool of the library is called in messages.
 std::string label_of(const LibraryTool& tool) {
-  if (tool.tool.name.empty() && tool.number.empty() && tool.has_place) return place_of(tool.tool.code);
+  if (tool.tool.name.empty() && tool.number.empty() && tool.has_place) return tool_name(tool.tool.code);
   if (tool.tool.name.empty()) return tool.number.empty() ? "?" : tool.number;
   return text::printable(tool.tool.name);
 }
@@ -192,7 +192,7 @@ class Importer {
       const auto place = places_.find(&tool);
       if (place == places_.end()) continue;
       const auto [other, is_first] = at.emplace(place->second, &tool);
-      if (!is_first) fail(kTwoAtPlace, place_of(place->second), label_of(*other->second), label_of(tool));
+      if (!is_first) fail(kTwoAtPlace, tool_name(place->second), label_of(*other->second), label_of(tool));
     }
   }
 
@@ -379,11 +379,11 @@ std::string shown_import(const ToolImport& import, Language language) {
       if (!value.before.empty()) values += value.before + " -> ";
       values += value.after.empty() ? "-" : value.after;
     }
-    line(change.is_new ? '+' : '~', place_of(change.tool.code) + quoted(change.tool.name) + values);
+    line(change.is_new ? '+' : '~', tool_name(change.tool.code) + quoted(change.tool.name) + values);
     if (!change.left_out.en.empty()) line(' ', "  " + dialect::format(change.left_out, language, change.left_out_name));
   }
   for (const Tool& tool : import.kept)
-    line('=', place_of(tool.code) + quoted(tool.name) + ": " + std::string(kStays.in(language)));
+    line('=', tool_name(tool.code) + quoted(tool.name) + ": " + std::string(kStays.in(language)));
   for (const ToolImport::Refused& refused : import.refused) {
     const std::string why =
         refused.names.empty()

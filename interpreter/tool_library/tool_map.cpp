@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "interpreter/system/paths.h"
-#include "interpreter/system/source_file.h"
 #include "interpreter/text/unicode.h"
 #include "interpreter/tool_library/library_reader.h"
 
@@ -32,6 +31,15 @@ std::variant<ToolCode, Text> read_tool_place(std::string_view text) {
   const ToolCode code = execution::tool_code(number);
   if ((code.tool > 0 && code.holder == 0) || (code.holder > 0 && code.head == 0)) return map_problems::kPlaceIncomplete;
   return code;
+}
+
+std::string unread_message(const std::filesystem::path& file, const system::FileBytesProblem& problem,
+                           const Text& too_large, dialect::Language language) {
+  using Kind = system::FileBytesProblem::Kind;
+  const std::string_view why = problem.kind == Kind::TooLarge     ? too_large.in(language)
+                               : problem.kind == Kind::NotRegular ? configuration::mistakes::kNoFile.in(language)
+                                                                  : std::string_view(problem.message);
+  return fmt::format("{}: {}", text::printable(system::generic_name(file)), why);
 }
 
 static void read_tools(const JsonValue& tools, LibraryFile& file, ToolMap& map) {
@@ -67,16 +75,10 @@ static void read_tools(const JsonValue& tools, LibraryFile& file, ToolMap& map) 
 }
 
 std::variant<ToolMap, std::string> load_tool_map(const std::filesystem::path& path, dialect::Language language) {
-  const std::string name = text::printable(system::generic_name(path));
   auto bytes = system::read_bytes(path, kLargestMap, language);
-  if (const auto* problem = std::get_if<system::FileBytesProblem>(&bytes)) {
-    using Kind = system::FileBytesProblem::Kind;
-    const std::string_view why = problem->kind == Kind::TooLarge     ? configuration::mistakes::kTooLarge.in(language)
-                                 : problem->kind == Kind::NotRegular ? configuration::mistakes::kNoFile.in(language)
-                                                                     : std::string_view(problem->message);
-    return fmt::format("{}: {}", name, why);
-  }
-  LibraryFile file(name, std::get<std::string>(std::move(bytes)), language);
+  if (const auto* problem = std::get_if<system::FileBytesProblem>(&bytes))
+    return unread_message(path, *problem, configuration::mistakes::kTooLarge, language);
+  LibraryFile file(text::printable(system::generic_name(path)), std::get<std::string>(std::move(bytes)), language);
   auto parsed = configuration::parse_json(file.text());
   ToolMap map;
   if (const auto* const mistake = std::get_if<configuration::Mistake>(&parsed)) {

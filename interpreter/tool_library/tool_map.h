@@ -8,12 +8,18 @@
 
 #include "interpreter/configuration/mistake.h"
 #include "interpreter/execution/setup.h"
+#include "interpreter/system/source_file.h"
 
 namespace isocnc::tool_library {
 
 /// The place of a tool as shops write it, `101001` or `T101001`: head, holder and tool, of which `100000` and `101000`
 /// have only the first. Otherwise why it is none, with {0} for what is written.
 std::variant<execution::ToolCode, dialect::Text> read_tool_place(std::string_view text);
+
+/// Why a file has no text for its reader, with its name: `map.json: not a file`. `too_large` says so of files beyond
+/// the limit.
+std::string unread_message(const std::filesystem::path& file, const system::FileBytesProblem& problem,
+                           const dialect::Text& too_large, dialect::Language language);
 
 /// Where the tools of a library stand in the machine.
 struct ToolMap {
