@@ -1,7 +1,7 @@
 // The packaged extension in a real VS Code in a real browser, as its users have it: what is on the page is what counts.
 // With ISOCNC_SCREENSHOTS=FOLDER it leaves pictures there, which docs/images/ has.
 import assert from 'node:assert/strict';
-import { existsSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, test } from 'node:test';
 import { Editor, eventually, root } from './editor.mjs';
@@ -395,6 +395,9 @@ test('the machine, its tools and setups are edited in a form, which keeps commen
   assert.match(written, /\/\/ ours/);
   assert.match(written, /"length": 118\.5[^\n]*\/\/ measured in March/);
   assert.equal(JSON.parse(written.replaceAll(/\/\/.*/g, '')).machine.tools.length, 2);
+  // Nothing of it stays: another isocnc.json would be opened in its place, and in the form again.
+  await editor.command('View: Close All Editors in Group');
+  rmSync(join(editor.workspace, 'form'), { recursive: true });
   await editor.open('plate.iso');
 });
 
