@@ -291,8 +291,10 @@ void Server::ask(const features::Method& method, const rpc::CallPointer& call, J
   if (call->is_notification()) return;
   OpenDocument* const document = open_documents_.find(params);
   if (!document && method.serves_closed) return ask_closed(method, call, params.at("textDocument").at("uri"));
-  if (document && document->is_configuration() && !method.of_configuration.empty())
-    return outbox_.send(rpc::result_message(*call->id, method.of_configuration));
+  const bool is_of_protocol = method.name.starts_with("textDocument/");
+  if (document && document->is_configuration() && (is_of_protocol || !method.of_configuration.empty()))
+    return outbox_.send(
+        rpc::result_message(*call->id, method.of_configuration.empty() ? "null" : method.of_configuration));
   if (!document || document->is_configuration()) {
     // The client may send back an item of a document that has just been closed: that is not an error of the client.
     const ErrorCode code = is_item_of_ours(params) ? ErrorCode::ContentModified : ErrorCode::InvalidParams;

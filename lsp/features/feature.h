@@ -34,7 +34,8 @@ struct Method {
   BackgroundRequest (*begin)(const Snapshot& snapshot, const Json& params) = nullptr;
   /// Whether `answer` also serves files that are not open: editors show tabs whose files they have not opened yet.
   bool serves_closed = false;
-  /// The result for an isocnc.json, which is not a program. If empty, the request is refused.
+  /// The result for an isocnc.json, which is not a program. If empty, requests of ours are refused, and those of the
+  /// protocol get null: an editor that has the file open asks for everything, and would show each refusal.
   std::string_view of_configuration = {};
 };
 

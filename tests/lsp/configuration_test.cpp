@@ -74,6 +74,21 @@ TEST_F(ConfigurationFile, MistakesAreMarkedWhileItIsTyped) {
   }
 }
 
+/// An editor that has the file open asks for all that the server can, and shows its user each refusal.
+TEST_F(ConfigurationFile, IsNoProgramButRefusesNothing) {
+  start();
+  session_.open(uri("isocnc.json"), "{}\n");
+  const Json place = {{"textDocument", {{"uri", uri("isocnc.json")}}},
+                      {"position", {{"line", 0}, {"character", 0}}},
+                      {"range", lines(0, 1)},
+                      {"context", {{"diagnostics", Json::array()}}}};
+  for (const char* const what :
+       {"hover", "completion", "definition", "documentSymbol", "documentHighlight", "codeLens", "codeAction",
+        "foldingRange", "inlayHint", "semanticTokens/full", "semanticTokens/range", "formatting", "linkedEditingRange"})
+    EXPECT_EQ(session_.request(std::string("textDocument/") + what, place), nullptr) << what;
+  EXPECT_TRUE(session_.respond("isocnc/toolpath", place).contains("error"));
+}
+
 TEST_F(ConfigurationFile, MistakesAreReportedOnceForAllItsPrograms) {
   write("isocnc.json", "{\n\"language\": 7}");
   start();

@@ -555,6 +555,7 @@ test('a task lists the problems of programs that are not open', async () => {
 });
 
 test('the server is started anew', async () => {
+  assert.deepEqual((await notices()).filter((text) => /failed/.test(text)), []);
   await editor.open('start-here.iso');
   await editor.command('ISOCNC: Restart Language Server');
   await eventually(squiggles, 'nothing is underlined after a restart', (count) => count >= 2);
