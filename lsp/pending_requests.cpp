@@ -30,6 +30,13 @@ void PendingRequests::cancel(const rpc::Json& id) {
   outbox_.send(rpc::error_message(id, rpc::ErrorCode::RequestCancelled, "the request has been cancelled"));
 }
 
+void PendingRequests::refuse_all() {
+  for (const auto& [id, flag] : std::exchange(flags_, {})) {
+    flag->store(true);
+    outbox_.send(rpc::error_message(rpc::parse(id), rpc::ErrorCode::RequestCancelled, "the server is being shut down"));
+  }
+}
+
 void PendingRequests::cancel_all() {
   for (const auto& [id, flag] : flags_) flag->store(true);
 }

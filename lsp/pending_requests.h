@@ -42,6 +42,8 @@ class PendingRequests {
   std::optional<PendingRequest> add(const rpc::Call& call);
   /// Answers the request by an error; does nothing if it has its answer already.
   void cancel(const rpc::Json& id);
+  /// Ends the work on all requests, and answers each by an error.
+  void refuse_all();
   /// Ends the work on all requests, without an answer.
   void cancel_all();
 

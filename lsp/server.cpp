@@ -179,6 +179,8 @@ void Server::shut_down(const rpc::CallPointer& call) {
 void Server::end() {
   if (phase_ == LifecyclePhase::Ended) return;
   exit_status_ = phase_ == LifecyclePhase::ShutDown ? 0 : 1;
+  // A client that sends `exit` at once would wait for their answers in vain.
+  pending_requests_.refuse_all();
   phase_ = LifecyclePhase::Ended;
   pending_requests_.cancel_all();
   open_documents_.stop_verifications();

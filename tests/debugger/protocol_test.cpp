@@ -37,6 +37,18 @@ TEST(Protocol, SaysWhatItCan) {
   EXPECT_EQ(capabilities.at("exceptionBreakpointFilters").size(), 7u);
 }
 
+TEST(Protocol, AnswersWhatIsAskedBeforeItDisconnects) {
+  DebugClient client;
+  client.stop_at_start(kPart);
+  const std::int64_t asked[] = {client.ask("next"), client.ask("evaluate", {{"expression", "X"}}),
+                                client.ask("disconnect")};
+  client.wait_for_end();
+  for (const std::int64_t seq : asked) {
+    const Json response = client.wait_for([](const Json& message) { return message["type"] == "response"; });
+    EXPECT_EQ(response["request_seq"], seq) << response;
+  }
+}
+
 /// Whatever comes, an answer or a word to the user comes back, and the adapter goes on.
 class HostileMessages : public testing::TestWithParam<std::string> {};
 

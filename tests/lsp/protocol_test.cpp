@@ -27,6 +27,27 @@ TEST(Lifecycle, ShutdownAndExitAreCleanEverythingElseIsNot) {
   EXPECT_EQ(never_started.end(), 1);
 }
 
+TEST(Lifecycle, PendingRequestsHaveTheirAnswersBeforeThatToShutdown) {
+  Session session;
+  session.start();
+  std::string text = "M06 T101001\n";
+  for (int i = 0; i < 20'000; ++i) text += "G01 X1 Y2 F100\n";
+  session.open(kUri, text);
+  const Json params = {{"textDocument", {{"uri", kUri}}}};
+  std::set<Json> pending = {session.ask("textDocument/diagnostic", params), session.ask("isocnc/toolpath", params)};
+  const Json shutdown = session.ask("shutdown");
+  session.notify("exit");
+  session.wait_for_end();
+  const auto next_response = [&] {
+    return session.wait_for([](const Json& message) { return message.contains("id") && !message.contains("method"); });
+  };
+  for (Json response = next_response(); response["id"] != shutdown; response = next_response()) {
+    EXPECT_TRUE(response.contains("result") || error_code(response) == -32800) << response;
+    pending.erase(response["id"]);
+  }
+  EXPECT_TRUE(pending.empty());
+}
+
 TEST(Lifecycle, RequestsOutOfPlaceAreRefused) {
   Session session;
   EXPECT_EQ(error_code(session.respond("textDocument/hover")), -32002);
