@@ -9,6 +9,7 @@
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/system/user_language.h"
 #include "lsp/rpc/serve.h"
 
 namespace isocnc::debugger {
@@ -22,10 +23,11 @@ struct DebugCommandOptions {
 void complain(std::string_view what) { command_line::complain("isodap", what); }
 
 system::ExitStatus run(const DebugCommandOptions& options) {
+  const std::optional<dialect::Language> language = dialect::language_named(options.language);
   const auto make = [&](rpc::Loop& loop, rpc::Send send) {
-    return std::make_unique<Adapter>(loop, std::move(send), dialect::language_named(options.language));
+    return std::make_unique<Adapter>(loop, std::move(send), language);
   };
-  rpc::serve(options.port, make, complain);
+  rpc::serve(options.port, language.value_or(system::user_language()), make, complain);
   return system::ExitStatus::Failure;  // The port is not available.
 }
 

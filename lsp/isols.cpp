@@ -8,6 +8,7 @@
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/system/user_language.h"
 #include "lsp/rpc/serve.h"
 #include "lsp/server.h"
 
@@ -23,10 +24,11 @@ struct ServerOptions {
 void complain(std::string_view what) { command_line::complain("isols", what); }
 
 system::ExitStatus run(const ServerOptions& options) {
+  const std::optional<dialect::Language> language = dialect::language_named(options.language);
   const auto make = [&](rpc::Loop& loop, rpc::Send send) {
-    return std::make_unique<Server>(loop, std::move(send), dialect::language_named(options.language));
+    return std::make_unique<Server>(loop, std::move(send), language);
   };
-  rpc::serve(options.port, make, complain);
+  rpc::serve(options.port, language.value_or(system::user_language()), make, complain);
   return system::ExitStatus::Failure;  // The port cannot be opened.
 }
 

@@ -39,23 +39,28 @@ static constexpr SystemText kSystemTexts[] = {
     {EFBIG, {"File too large", "file troppo grande"}},
     {EROFS, {"Read-only file system", "file system in sola lettura"}},
     {EPIPE, {"Broken pipe", "nessuno legge più dalla pipe"}},
+    {EADDRINUSE, {"Address already in use", "indirizzo già in uso"}},
+    {EADDRNOTAVAIL, {"Cannot assign requested address", "indirizzo non disponibile"}},
     {EBADF, {"Bad file descriptor", "il file non è aperto"}},
 };
 
-static std::string with_reason(const Text& what, int error, Language language) {
+std::string reason_of(int error, Language language) {
   const auto* const row =
       std::find_if(std::begin(kSystemTexts), std::end(kSystemTexts), [&](const auto& r) { return r.error == error; });
-  std::string message{what.in(language)};
-  if (row == std::end(kSystemTexts)) return message + std::generic_category().message(error);
-  return message.append(row->text.in(language));
+  if (row == std::end(kSystemTexts)) return std::generic_category().message(error);
+  return std::string(row->text.in(language));
 }
 
-std::string cannot_read(int error, Language language) { return with_reason(kCannotRead, error, language); }
+std::string cannot_read(int error, Language language) {
+  return std::string(kCannotRead.in(language)) + reason_of(error, language);
+}
 
 std::string cannot_read(const std::error_code& error, Language language) {
   return cannot_read(error.default_error_condition().value(), language);
 }
 
-std::string cannot_write(int error, Language language) { return with_reason(kCannotWrite, error, language); }
+std::string cannot_write(int error, Language language) {
+  return std::string(kCannotWrite.in(language)) + reason_of(error, language);
+}
 
 }  // namespace isocnc::system

@@ -10,6 +10,7 @@
 
 #include "interpreter/system/connection.h"
 #include "interpreter/system/process.h"
+#include "interpreter/system/system_texts.h"
 #include "lsp/rpc/channel.h"
 
 namespace isocnc::rpc {
@@ -36,13 +37,13 @@ static constexpr std::chrono::seconds kIdleInterval{3};
   std::_Exit(peer->exit_status());
 }
 
-void serve(const std::optional<std::uint16_t>& port, const MakePeer& make_peer,
+void serve(const std::optional<std::uint16_t>& port, dialect::Language language, const MakePeer& make_peer,
            const std::function<void(const std::string&)>& report) {
   if (!port) run_peer(system::standard_connection(), make_peer);
   const auto address = [](std::uint16_t number) { return fmt::format("127.0.0.1:{}", number); };
   auto accepted = system::accept_on_loopback(*port, [&](std::uint16_t number) { report(address(number)); });
   if (const auto* const error = std::get_if<std::error_code>(&accepted))
-    return report(fmt::format("{}: {}", address(*port), error->message()));
+    return report(fmt::format("{}: {}", address(*port), system::reason_of(error->value(), language)));
   run_peer(std::move(std::get<std::unique_ptr<system::Connection>>(accepted)), make_peer);
 }
 

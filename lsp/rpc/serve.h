@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "interpreter/dialect/diagnostic.h"
 #include "lsp/rpc/frame.h"
 #include "lsp/rpc/loop.h"
 
@@ -31,8 +32,8 @@ using MakePeer = std::function<std::unique_ptr<Peer>(Loop& loop, Send send)>;
 /// Connects a peer with one client: by standard input and output or, with a port, by the first connection that
 /// accept_on_loopback() accepts. When the peer is done, the process ends with its exit status, so this function returns
 /// only if the port cannot be opened. `report` gets a text for users: `127.0.0.1:4711`, or why the port cannot be
-/// opened.
-void serve(const std::optional<std::uint16_t>& port, const MakePeer& make_peer,
+/// opened, in `language`.
+void serve(const std::optional<std::uint16_t>& port, dialect::Language language, const MakePeer& make_peer,
            const std::function<void(const std::string&)>& report);
 
 }  // namespace isocnc::rpc

@@ -300,6 +300,25 @@ class Windows(unittest.TestCase):
         server.stdin.close()
         self.assertEqual(server.wait(60), 1)
 
+    def test_a_port_that_another_program_has_is_reported(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+            for program, option in (("isols", "--tcp"), ("isodap", "--server")):
+                result = run(program, option, port)
+                self.assertEqual(result.returncode, 2)
+                self.assertEqual(result.stderr.decode().strip(), f"{program}: 127.0.0.1:{port}: Address already in use")
+
+    def test_isodap_serves_at_a_port(self):
+        with subprocess.Popen([PROGRAMS / "isodap", "--server", "0"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE) as server:
+            host, port = server.stderr.readline().decode().strip().rsplit(" ", 1)[-1].split(":")
+            with socket.create_connection((host, int(port)), timeout=60) as client:
+                stream = client.makefile("rb")
+                client.sendall(framed({"seq": 1, "type": "request", "command": "initialize", "arguments": {"adapterID": "isocnc"}}))
+                self.assertTrue(next(replies(stream))["body"]["supportsStepBack"])
+                client.sendall(framed({"seq": 2, "type": "request", "command": "disconnect"}))
+                self.assertTrue(any(reply.get("command") == "disconnect" for reply in replies(stream)))
+            self.assertEqual(server.wait(60), 0)
+
     def test_isols_ends_with_the_editor_that_started_it(self):
         # A number that no process has: those of Windows are multiples of four.
         server, _ = self.server(processId=999_999)

@@ -13,6 +13,8 @@
 #include <string>
 #include <thread>
 
+#include "interpreter/system/windows/errors.h"
+
 namespace isocnc::system {
 
 namespace {
@@ -150,7 +152,8 @@ class PipeConnection final : public Connection {
   std::thread deliverer_;
 };
 
-std::error_code last_socket_error() { return {::WSAGetLastError(), std::system_category()}; }
+std::error_code code_of(int error) { return {errno_of(static_cast<unsigned long>(error)), std::generic_category()}; }
+std::error_code last_socket_error() { return code_of(::WSAGetLastError()); }
 
 /// A socket that the destructor closes.
 class Socket {
@@ -227,7 +230,7 @@ std::unique_ptr<Connection> standard_connection() { return std::make_unique<Pipe
 std::variant<std::unique_ptr<Connection>, std::error_code> accept_on_loopback(
     std::uint16_t port, const std::function<void(std::uint16_t)>& on_port) {
   WSADATA data{};
-  if (const int error = ::WSAStartup(MAKEWORD(2, 2), &data)) return std::error_code(error, std::system_category());
+  if (const int error = ::WSAStartup(MAKEWORD(2, 2), &data)) return code_of(error);
   const Socket listener(::socket(AF_INET, SOCK_STREAM, 0));
   if (!listener.is_open()) return last_socket_error();
   const BOOL on = TRUE;

@@ -1,5 +1,7 @@
 #include "interpreter/system/windows/errors.h"
 
+#include <winsock2.h>
+
 #include <windows.h>
 
 #include <cerrno>
@@ -50,6 +52,12 @@ int errno_of(unsigned long error) {
       return EBADF;
     case ERROR_DIRECTORY:
       return ENOTDIR;
+    case WSAEADDRINUSE:
+      return EADDRINUSE;
+    case WSAEADDRNOTAVAIL:
+      return EADDRNOTAVAIL;
+    case WSAEACCES:
+      return EACCES;
     default:
       return EIO;
   }
