@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """What is different on Windows: names of files, who else uses them, line ends, languages, ports. Runs the programs under Wine.
 
-usage: windows_test.py PROGRAMS -- HOLD_FILE...
+usage: windows_test.py PROGRAMS -- EMULATOR... HELPERS
 
-PROGRAMS is a folder of scripts that run them; HOLD_FILE is the command of tests/platforms/hold_file.cpp.
+PROGRAMS is a folder of scripts that run them; HELPERS is that of the programs that the C++ files beside this one make.
 """
 
 import json
@@ -17,7 +17,9 @@ import tempfile
 import unittest
 
 PROGRAMS = pathlib.Path(sys.argv[1]).resolve()
-HOLD_FILE = sys.argv[3:]
+*EMULATOR, HELPERS = sys.argv[3:]
+HOLD_FILE = [*EMULATOR, str(pathlib.Path(HELPERS) / "hold_file.exe")]
+REPLACE_FILE = [*EMULATOR, str(pathlib.Path(HELPERS) / "replace_file.exe")]
 
 WRONG = "M06 T101001\nS12000 M03\nG01 X10 F1200\nG02 X20\nM05\nM02\n"
 UNTIDY = "m06 t101001\r\ng00 x0 y0\r\nm02\r\n"
@@ -220,9 +222,46 @@ class Windows(unittest.TestCase):
         self.assertEqual(run("isofmt", "-i", file).returncode, 2)
         self.assertEqual(file.read_bytes().decode(), UNTIDY)
 
+    def replaced_while(self, others_work):
+        """What comes of a replacement during which others work on the file."""
+        file = self.write("a.iso", "old")
+        with subprocess.Popen([*REPLACE_FILE, windows_path(file)], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as replacement:
+            self.assertEqual(replacement.stdout.readline().strip(), b"begun")
+            others_work(file)
+            return replacement.communicate(b"")[0].decode().strip()
+
+    def test_a_file_that_changes_meanwhile_is_not_replaced(self):
+        def write_another(file):
+            other = self.write("other", "old")
+            os.utime(other, ns=(file.stat().st_atime_ns, file.stat().st_mtime_ns))
+            other.rename(file)
+
+        def write_older(file):
+            file.write_text("OLD", encoding="ascii")
+            os.utime(file, (0, 0))
+
+        changes = {
+            "written": lambda file: file.write_text("more", encoding="ascii"),
+            "older": write_older,
+            "another": write_another,
+            "second name": lambda file: os.link(file, self.folder / "b.iso"),
+        }
+        for name, change in changes.items():
+            with self.subTest(name):
+                self.assertIn("left as it is", self.replaced_while(change))
+                self.assertNotEqual((self.folder / "a.iso").read_text(encoding="ascii"), "new")
+                for file in self.folder.iterdir():
+                    file.unlink()
+        self.assertEqual(self.replaced_while(lambda file: None), "replaced")
+        self.assertEqual([(each.name, each.read_text(encoding="ascii")) for each in self.folder.iterdir()], [("a.iso", "new")])
+
+    def test_a_file_that_is_removed_meanwhile_does_not_come_back(self):
+        self.assertNotEqual(self.replaced_while(lambda file: file.unlink()), "replaced")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_a_hidden_file_stays_hidden(self):
         self.write("a.iso", UNTIDY)
-        attrib = [*HOLD_FILE[:-1], "cmd", "/c", "attrib"]
+        attrib = [*EMULATOR, "cmd", "/c", "attrib"]
         subprocess.run([*attrib, "+H", "a.iso"], cwd=self.folder, check=True, timeout=60)
         self.assertEqual(run("isofmt", "-i", "a.iso", cwd=self.folder).returncode, 0)
         shown = subprocess.run([*attrib, "a.iso"], cwd=self.folder, check=True, timeout=60, capture_output=True).stdout
@@ -259,6 +298,25 @@ class Windows(unittest.TestCase):
                 self.assertEqual(next(replies(stream))["result"]["serverInfo"]["name"], "isols")
                 client.sendall(framed({"jsonrpc": "2.0", "id": 2, "method": "shutdown"}) + framed({"jsonrpc": "2.0", "method": "exit"}))
                 self.assertEqual(next(replies(stream))["id"], 2)
+            self.assertEqual(server.wait(60), 0)
+
+    def test_a_port_that_another_program_has_is_reported(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+            for program, option in (("isols", "--tcp"), ("isodap", "--server")):
+                result = run(program, option, port)
+                self.assertEqual(result.returncode, 2)
+                self.assertEqual(result.stderr.decode().strip(), f"{program}: 127.0.0.1:{port}: Address already in use")
+
+    def test_isodap_serves_at_a_port(self):
+        with subprocess.Popen([PROGRAMS / "isodap", "--server", "0"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE) as server:
+            host, port = server.stderr.readline().decode().strip().rsplit(" ", 1)[-1].split(":")
+            with socket.create_connection((host, int(port)), timeout=60) as client:
+                stream = client.makefile("rb")
+                client.sendall(framed({"seq": 1, "type": "request", "command": "initialize", "arguments": {"adapterID": "isocnc"}}))
+                self.assertTrue(next(replies(stream))["body"]["supportsStepBack"])
+                client.sendall(framed({"seq": 2, "type": "request", "command": "disconnect"}))
+                self.assertTrue(any(reply.get("command") == "disconnect" for reply in replies(stream)))
             self.assertEqual(server.wait(60), 0)
 
     def server(self, **initialize):
@@ -299,25 +357,6 @@ class Windows(unittest.TestCase):
         server, _ = self.server()
         server.stdin.close()
         self.assertEqual(server.wait(60), 1)
-
-    def test_a_port_that_another_program_has_is_reported(self):
-        with socket.create_server(("127.0.0.1", 0)) as taken:
-            port = taken.getsockname()[1]
-            for program, option in (("isols", "--tcp"), ("isodap", "--server")):
-                result = run(program, option, port)
-                self.assertEqual(result.returncode, 2)
-                self.assertEqual(result.stderr.decode().strip(), f"{program}: 127.0.0.1:{port}: Address already in use")
-
-    def test_isodap_serves_at_a_port(self):
-        with subprocess.Popen([PROGRAMS / "isodap", "--server", "0"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE) as server:
-            host, port = server.stderr.readline().decode().strip().rsplit(" ", 1)[-1].split(":")
-            with socket.create_connection((host, int(port)), timeout=60) as client:
-                stream = client.makefile("rb")
-                client.sendall(framed({"seq": 1, "type": "request", "command": "initialize", "arguments": {"adapterID": "isocnc"}}))
-                self.assertTrue(next(replies(stream))["body"]["supportsStepBack"])
-                client.sendall(framed({"seq": 2, "type": "request", "command": "disconnect"}))
-                self.assertTrue(any(reply.get("command") == "disconnect" for reply in replies(stream)))
-            self.assertEqual(server.wait(60), 0)
 
     def test_isols_ends_with_the_editor_that_started_it(self):
         # A number that no process has: those of Windows are multiples of four.
