@@ -94,6 +94,12 @@ editor.add('closed.iso', 'G71 G90\nG05 X1\nM02\n');
 editor.add('chosen.iso', 'G71 G90\nG05 X1\nM02\n');
 editor.add('new.iso', 'G71 G90\nM06 T101001\nG00 X10 Y5\nM02\n');
 editor.add('old.iso', 'g71  g90\nm06t101001\nG00 X10 Y4\nM02\n');
+for (const [day, depth] of [['monday', 4], ['tuesday', 5]]) {
+  mkdirSync(join(editor.workspace, day, 'doors'), { recursive: true });
+  editor.add(`${day}/same.iso`, 'M06 T101001\nM02\n');
+  editor.add(`${day}/doors/posted.iso`, `G71 G90 G94\nM06 T101001\nS12000 M03\nG00 X10 Y5 Z30\nG01 Z-${depth} F1000\nM05\nM02\n`);
+}
+editor.add('tuesday/doors/past-travel.iso', 'G71 G90\nM06 T101001\nG00 X9000\nM02\n');
 editor.add('program.tap', 'G71 G90\nM06 T101001\nM02\n');
 editor.add('notes.tap', 'feeds to try\nM06 T101001\n');
 await editor.openWorkbench();
@@ -127,11 +133,11 @@ test('what would stop the control is underlined and listed among the problems', 
 });
 
 /** Starts a task until its problems are listed: VS Code may lose those of a task that ends at once, on a busy machine. */
-async function listedByTask(start, program) {
+async function listedByTask(start, program, line = 2) {
   const listed = async () => {
     await eventually(start, 'the task does not start', () => true);
     // The terminal comes to the front with the task.
-    await eventually(() => editor.texts('.terminal-wrapper.active .xterm-rows'), 'the task reports nothing', (texts) => texts.join().includes(`${program}:2:1`));
+    await eventually(() => editor.texts('.terminal-wrapper.active .xterm-rows'), 'the task reports nothing', (texts) => texts.join().includes(`${program}:${line}:1`));
     await editor.command('Problems: Focus on Problems View');
     await page.locator('.markers-panel .monaco-list-row', { hasText: program }).first().waitFor({ timeout: 8000 });
     return problems();
@@ -142,6 +148,25 @@ async function listedByTask(start, program) {
 test('a program is checked from the menu of its file', async () => {
   await listedByTask(() => editor.chooseInExplorer(['new.iso', 'chosen.iso'], 'Check with isolint'), 'chosen.iso');
   await hidePanel();
+});
+
+test('all programs of a folder are checked, or run on the machine, from its menu', async () => {
+  await listedByTask(() => editor.chooseInExplorer(['tuesday'], 'Run on the Simulator'), 'past-travel.iso', 3);
+  const rows = await problems();
+  assert.ok(rows.some((row) => row.includes('E160')), rows.join('; '));
+  await hidePanel();
+});
+
+test('programs of two folders are compared by what they do', async () => {
+  await editor.chooseInExplorer(['monday', 'tuesday'], 'Compare Behavior with Folder...');
+  const rows = page.locator('.quick-input-list .monaco-list-row');
+  await rows.nth(1).waitFor();
+  const listed = await editor.texts('.quick-input-list .monaco-list-row');
+  assert.equal(listed.length, 2, listed.join('; '));
+  await rows.filter({ hasText: 'doors/posted.iso' }).click();
+  await eventually(() => editor.texts('.codelens-decoration'), 'the change has no lens', (texts) => texts.some((text) => /Z-1/.test(text)));
+  await editor.press('Control+F4');
+  await editor.open('start-here.iso');
 });
 
 test('two programs are compared as they would be formatted', async () => {
@@ -530,6 +555,7 @@ test('the setup of a program is validated by its schema and by isols', async () 
   await editor.open('gear.setup.json');
   await editor.command('Problems: Focus on Problems View');
   await eventually(problems, 'the key is not refused', (rows) => rows.filter((row) => /fixturs/.test(row)).length >= 2);
+  assert.deepEqual((await notices()).filter((text) => /failed/.test(text)), []);
   await editor.focus();
 });
 
@@ -555,7 +581,6 @@ test('a task lists the problems of programs that are not open', async () => {
 });
 
 test('the server is started anew', async () => {
-  assert.deepEqual((await notices()).filter((text) => /failed/.test(text)), []);
   await editor.open('start-here.iso');
   await editor.command('ISOCNC: Restart Language Server');
   await eventually(squiggles, 'nothing is underlined after a restart', (count) => count >= 2);

@@ -2,7 +2,7 @@
 import * as vscode from 'vscode';
 import { currentProgram, isInFile } from './current_program';
 import { language, type Environment, type Program } from './environment';
-import { programTask } from './tasks';
+import { programTask, verify } from './tasks';
 
 /** What a code lens says about its place. */
 export interface Place {
@@ -20,12 +20,16 @@ export async function programOf(place?: Place | vscode.Uri): Promise<vscode.Text
 
 export function activate(context: vscode.ExtensionContext, environment: Environment): void {
   context.subscriptions.push(
-    vscode.commands.registerCommand('isocnc.run', (place?: Place | vscode.Uri) => run(environment, place)),
+    vscode.commands.registerCommand('isocnc.run', (place?: Place | vscode.Uri, chosen?: vscode.Uri[]) => run(environment, place, chosen)),
     vscode.commands.registerCommand('isocnc.exportPlot', (place?: Place | vscode.Uri) => exportPlot(environment, place)),
   );
 }
 
-async function run(environment: Environment, place?: Place | vscode.Uri): Promise<void> {
+const isFolder = async (uri: vscode.Uri) => ((await vscode.workspace.fs.stat(uri)).type & vscode.FileType.Directory) !== 0;
+
+/** One program; or all in a folder, or that are selected in the Explorer, with what the machine shows of each among the problems. */
+async function run(environment: Environment, place?: Place | vscode.Uri, chosen?: vscode.Uri[]): Promise<void> {
+  if (place instanceof vscode.Uri && ((chosen?.length ?? 0) > 1 || (await isFolder(place)))) return verify(environment, place, chosen);
   const program = await programOf(place);
   const isorun = program && (await environment.need('isorun'));
   if (!isorun) return;

@@ -43,8 +43,11 @@ export function activate(context: vscode.ExtensionContext, environment: Environm
   );
 }
 
+/** Runs what is chosen in the Explorer on the simulated machine, and lists what only that shows, too. */
+export const verify = (environment: Environment, clicked?: vscode.Uri, chosen?: vscode.Uri[]) => check(environment, clicked, chosen, ['--verify']);
+
 /** Checks what is chosen in the Explorer, files and folders, or else the program in the editor, as it is saved. */
-async function check(environment: Environment, clicked?: vscode.Uri, chosen?: vscode.Uri[]): Promise<void> {
+async function check(environment: Environment, clicked?: vscode.Uri, chosen?: vscode.Uri[], options: string[] = []): Promise<void> {
   const uris = chosen?.length ? chosen : [clicked ?? currentProgram()?.uri].filter((uri) => uri !== undefined);
   if (!uris.length) return adviseOpen();
   const files = uris.filter((uri) => environment.reaches(uri));
@@ -54,7 +57,7 @@ async function check(environment: Environment, clicked?: vscode.Uri, chosen?: vs
   }
   const isMeant = ({ scheme, path }: vscode.Uri) => files.some((file) => file.scheme === scheme && `${path}/`.startsWith(`${file.path}/`));
   for (const document of vscode.workspace.textDocuments) if (document.isDirty && isMeant(document.uri)) await document.save();
-  await checkFiles(environment, files);
+  await checkFiles(environment, files, options);
 }
 
 function tasks(environment: Environment): vscode.Task[] {
@@ -70,8 +73,8 @@ function tasks(environment: Environment): vscode.Task[] {
 }
 
 /** Checks files and folders by isolint itself; what it finds is listed among the problems. */
-export async function checkFiles(environment: Environment, files: vscode.Uri[]): Promise<void> {
+export async function checkFiles(environment: Environment, files: vscode.Uri[], options: string[] = []): Promise<void> {
   const isolint = await environment.need('isolint');
   if (isolint)
-    await vscode.tasks.executeTask(programTask({ type: 'isocnc', command: 'isolint', arguments: files.map((file) => isolint.pathOf(file)) }, isolint, 'isolint'));
+    await vscode.tasks.executeTask(programTask({ type: 'isocnc', command: 'isolint', arguments: [...options, ...files.map((file) => isolint.pathOf(file))] }, isolint, 'isolint'));
 }

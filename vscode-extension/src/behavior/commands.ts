@@ -6,6 +6,7 @@ import { nameOf, uriOf } from '../files';
 import type { Server } from '../server';
 import { compare } from './comparing';
 import { summary } from './comparison';
+import { compareFolders } from './folders';
 import { headOf } from './git';
 import { BehaviorLenses, summaries } from './lenses';
 import { SavedPrograms, savedUri } from './saved';
@@ -19,6 +20,9 @@ export function activate(context: vscode.ExtensionContext, server: Server): void
     vscode.commands.registerCommand('isocnc.compareWithSaved', (uri?: vscode.Uri) => run(() => compareWithSaved(server, uri))),
     vscode.commands.registerCommand('isocnc.compareWithFile', (uri?: vscode.Uri, chosen?: vscode.Uri[]) =>
       run(() => compareWithFile(server, endings, uri, chosen)),
+    ),
+    vscode.commands.registerCommand('isocnc.compareFolders', (folder?: vscode.Uri, chosen?: vscode.Uri[]) =>
+      run(() => compareFolders(endings, (...diff) => show(server, ...diff), folder, chosen)),
     ),
     vscode.commands.registerCommand('isocnc.runToDifference', () => run(() => runToDifference(endings))),
   );
