@@ -8,7 +8,6 @@
 
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/system/process.h"
-#include "lsp/protocol/uri.h"
 #include "lsp/workspace_aggregate.h"
 
 namespace isocnc::lsp {
@@ -33,6 +32,7 @@ Server::Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language>
     for (const features::WorkspaceRequest& workspace_request : feature->workspace_requests)
       workspace_requests_[workspace_request.name] = workspace_request;
     for (const features::Method& command : feature->commands) commands_[command.name] = command;
+    for (const features::Method& text : feature->texts) texts_[text.name] = text;
   }
 }
 
@@ -52,6 +52,7 @@ const std::unordered_map<std::string_view, Server::Handler>& Server::handlers() 
       {"workspace/didChangeWorkspaceFolders", &Server::change_folders},
       {"workspace/didChangeWatchedFiles", &Server::look_at_changed_files},
       {"workspace/executeCommand", &Server::execute_command},
+      {"workspace/textDocumentContent", &Server::write_text},
   };
   return kHandlers;
 }
@@ -123,17 +124,22 @@ void Server::call_method(const rpc::CallPointer& call) {
 
 // --- Lifecycle
 
+/// The command that shows a text about a program: the server's own, since the text belongs to some feature.
+static constexpr const char* kShowText = "isocnc.showText";
+
 /// The server's capabilities: its own part and that of each feature.
 static Json capabilities_for(const Client& client) {
   Json all = {{"positionEncoding", protocol::name_of(client.encoding)},
               {"textDocumentSync", {{"openClose", true}, {"change", 2}, {"save", {{"includeText", false}}}}},
-              {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}}};
-  Json commands = Json::array();
+              {"workspace",
+               {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}},
+                {"textDocumentContent", {{"schemes", Json::array({protocol::kTextScheme})}}}}}};
+  Json commands = Json::array({kShowText});
   for (const features::Feature* const feature : all_features()) {
     if (feature->capabilities) all.update(feature->capabilities(client), true);
     for (const features::Method& command : feature->commands) commands.push_back(command.name);
   }
-  if (!commands.empty()) all["executeCommandProvider"] = {{"commands", commands}};
+  all["executeCommandProvider"] = {{"commands", commands}};
   return all;
 }
 
@@ -173,14 +179,14 @@ void Server::watch_files() {
 void Server::shut_down(const rpc::CallPointer& call) {
   if (call->is_notification()) return;
   phase_ = LifecyclePhase::ShutDown;
+  // A client that sends `exit` at once would wait for their answers in vain.
+  pending_requests_.refuse_all();
   outbox_.reply(*call, nullptr);
 }
 
 void Server::end() {
   if (phase_ == LifecyclePhase::Ended) return;
   exit_status_ = phase_ == LifecyclePhase::ShutDown ? 0 : 1;
-  // A client that sends `exit` at once would wait for their answers in vain.
-  pending_requests_.refuse_all();
   phase_ = LifecyclePhase::Ended;
   pending_requests_.cancel_all();
   open_documents_.stop_verifications();
@@ -202,13 +208,17 @@ void Server::cancel_progress(const rpc::CallPointer& call) {
 void Server::open(const rpc::CallPointer& call) { open_documents_.open(call, client_); }
 
 void Server::edit(const rpc::CallPointer& call) {
-  if (OpenDocument* const document = open_documents_.find(call->params())) document->edit(call, client_);
+  OpenDocument* const document = open_documents_.find(call->params());
+  if (!document) return;
+  document->edit(call, client_);
+  refresh_texts_about(std::string(document->uri()));
 }
 
 void Server::close(const rpc::CallPointer& call) {
   const OpenDocument* const document = open_documents_.find(call->params());
   if (!document) return;
   const bool is_configuration = document->is_configuration();
+  current_texts_.erase(std::string(document->uri()));
   open_documents_.close(std::string(document->uri()), *client_);
   if (is_configuration) reconfigure_all();
 }
@@ -258,6 +268,9 @@ void Server::reconfigure_all() {
 void Server::reconfigure_documents() {
   open_documents_.reconfigure(client_);
   refresh([](const features::Refresh&) { return true; });
+  std::vector<std::string> programs;
+  for (const auto& [program, texts] : current_texts_) programs.push_back(program);
+  for (const std::string& program : programs) refresh_texts_about(program);
 }
 
 void Server::refresh(const std::function<bool(const features::Refresh&)>& is_needed) {
@@ -270,11 +283,13 @@ void Server::refresh(const std::function<bool(const features::Refresh&)>& is_nee
 void Server::execute_command(const rpc::CallPointer& call) {
   const Json& params = call->params();
   const std::string name = params.at("command");
+  const Json arguments = params.value("arguments", Json::array());
+  const Json argument = arguments.empty() ? Json::object() : arguments.at(0);
+  if (name == kShowText) return show_text(call, argument);
   const auto command = commands_.find(name);
   if (command == commands_.end())
     return outbox_.refuse(*call, ErrorCode::InvalidParams, fmt::format("there is no command {}", name));
-  const Json arguments = params.value("arguments", Json::array());
-  ask(command->second, call, arguments.empty() ? Json::object() : arguments.at(0),
+  ask(command->second, call, argument,
       [this, name](const PendingRequest& request) { return rpc::OnWorker<std::string>(edit_applier(name, request)); });
 }
 
@@ -285,6 +300,53 @@ rpc::OnLoop<std::string> Server::edit_applier(const std::string& command, const 
             outbox_.request("workspace/applyEdit", {{"label", command}, {"edit", json["edit"]}});
             request.answer("null");
           }};
+}
+
+// --- Texts about programs
+
+/// The maximum number of texts about one program that are kept up to date: more than a client shows.
+static constexpr std::size_t kMaxTexts = 100;
+
+void Server::write_text(const rpc::CallPointer& call) {
+  if (call->is_notification()) return;
+  const std::string uri = call->params().at("uri");
+  const std::optional<protocol::TextAboutProgram> text = protocol::read_text_uri(uri);
+  if (!text)
+    return outbox_.refuse(*call, ErrorCode::InvalidParams, fmt::format("{} names no text about a program", uri));
+  if (open_documents_.contains(text->program) && client_->can("/workspace/textDocumentContent")) {
+    std::set<std::string>& texts = current_texts_[text->program];
+    if (texts.size() == kMaxTexts) texts.erase(texts.begin());
+    texts.insert(uri);
+  }
+  ask_for_text(*text, call);
+}
+
+void Server::ask_for_text(const protocol::TextAboutProgram& text, const rpc::CallPointer& call) {
+  const auto method = texts_.find(text.kind);
+  if (method == texts_.end())
+    return outbox_.refuse(*call, ErrorCode::InvalidParams, fmt::format("there is no text {}", text.kind));
+  Json params = {{"textDocument", {{"uri", text.program}}}};
+  if (text.line) params["line"] = *text.line;
+  ask(method->second, call, std::move(params), answerer);
+}
+
+/// A client that cannot show documents of the server gets the text itself.
+void Server::show_text(const rpc::CallPointer& call, const Json& argument) {
+  const protocol::TextAboutProgram text = {.kind = argument.at("text"),
+                                           .program = argument.at("uri"),
+                                           .line = protocol::member<std::uint32_t>(argument, "line")};
+  const bool is_shown = client_->can("/workspace/textDocumentContent") && client_->can("/window/showDocument/support");
+  if (!is_shown || call->is_notification()) return ask_for_text(text, call);
+  outbox_.request("window/showDocument", {{"uri", protocol::uri_of(text)}, {"takeFocus", false}});
+  outbox_.reply(*call, nullptr);
+}
+
+void Server::refresh_texts_about(const std::string& program) {
+  const auto found = current_texts_.find(program);
+  if (found == current_texts_.end()) return;
+  const std::set<std::string> outdated = std::move(found->second);
+  current_texts_.erase(found);
+  for (const std::string& uri : outdated) outbox_.request("workspace/textDocumentContent/refresh", {{"uri", uri}});
 }
 
 // --- Requests

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -16,6 +17,7 @@
 #include "lsp/pending_requests.h"
 #include "lsp/posted_programs.h"
 #include "lsp/protocol/client.h"
+#include "lsp/protocol/uri.h"
 #include "lsp/rpc/message.h"
 #include "lsp/rpc/on_loop.h"
 #include "lsp/rpc/serve.h"
@@ -70,6 +72,7 @@ class Server final : public rpc::Peer {
   void change_settings(const rpc::CallPointer& call);
   void look_at_changed_files(const rpc::CallPointer& call);
   void execute_command(const rpc::CallPointer& call);
+  void write_text(const rpc::CallPointer& call);
 
   void reconfigure_all();
   void reconfigure_documents();
@@ -77,6 +80,9 @@ class Server final : public rpc::Peer {
   void watch_files();
   void ask(const features::Method& method, const rpc::CallPointer& call, rpc::Json params, const TakerOf& taker_of);
   void ask_closed(const features::Method& method, const rpc::CallPointer& call, const std::string& uri);
+  void ask_for_text(const protocol::TextAboutProgram& text, const rpc::CallPointer& call);
+  void show_text(const rpc::CallPointer& call, const rpc::Json& argument);
+  void refresh_texts_about(const std::string& program);
   void ask_workspace(const features::WorkspaceRequest& workspace_request, const rpc::CallPointer& call);
   rpc::OnLoop<std::string> edit_applier(const std::string& command, const PendingRequest& request);
   ClosedPrograms::Folders folders_of_workspace() const;
@@ -97,6 +103,10 @@ class Server final : public rpc::Peer {
   std::unordered_map<std::string_view, features::Method> methods_;
   std::unordered_map<std::string_view, features::WorkspaceRequest> workspace_requests_;
   std::unordered_map<std::string_view, features::Method> commands_;
+  std::unordered_map<std::string_view, features::Method> texts_;  // By their kind.
+  /// The URIs of texts that the client has got since its program has last changed, by the URI of the program. A client
+  /// that still shows one asks again once it is told of the change.
+  std::map<std::string, std::set<std::string>> current_texts_;
   documents::SettingsStore settings_;  // The one member that several threads use.
   PendingRequests pending_requests_{loop_, outbox_};
   PostedPrograms posted_programs_{loop_, outbox_, settings_, [this] {

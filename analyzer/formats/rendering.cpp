@@ -68,22 +68,26 @@ std::string plain_path(std::string_view name) {
   return system::generic_name(system::normal(std::filesystem::path(name)));
 }
 
-std::string uri_of(std::string_view name) {
-  const std::string path = plain_path(name);
-  // On Windows: //server/share/part.iso, c:/part.iso.
-  const std::string_view start = path.starts_with("//") ? "file:" : path.starts_with('/') ? "file://" : "file:///";
-  std::string uri(system::is_absolute(std::filesystem::path(path)) ? start : "");
-  for (const char c : path) {
+std::string in_uri(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     const bool plain =
         byte < 0x80 && (std::isalnum(byte) != 0 || std::string_view("-._~/").find(c) != std::string_view::npos);
     if (plain) {
-      uri += c;
+      escaped += c;
     } else {
-      fmt::format_to(std::back_inserter(uri), "%{:02X}", byte);
+      fmt::format_to(std::back_inserter(escaped), "%{:02X}", byte);
     }
   }
-  return uri;
+  return escaped;
+}
+
+std::string uri_of(std::string_view name) {
+  const std::string path = plain_path(name);
+  // On Windows: //server/share/part.iso, c:/part.iso.
+  const std::string_view start = path.starts_with("//") ? "file:" : path.starts_with('/') ? "file://" : "file:///";
+  return (system::is_absolute(std::filesystem::path(path)) ? std::string(start) : std::string()) + in_uri(path);
 }
 
 std::string rule_url(dialect::DiagnosticId id) {

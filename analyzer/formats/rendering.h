@@ -101,6 +101,8 @@ inline constexpr dialect::Text kReachedThrough = {"only on this path:", "solo su
 
 /// A file's normalized name, as other tools print it: `./a/../part.iso` becomes `part.iso`.
 std::string plain_path(std::string_view name);
+/// A text as a part of a URI, with escapes such as %20; slashes stay.
+std::string in_uri(std::string_view text);
 /// The plain path as a URI: relative, unless the path is absolute.
 std::string uri_of(std::string_view name);
 

@@ -6,8 +6,7 @@
 namespace isocnc::background {
 
 std::string work_title(const dialect::Text& title, const std::string& uri, const protocol::Client& client) {
-  const auto path = protocol::path_of(uri);
-  return dialect::format(title, client.language({}), path ? path->filename().generic_string() : uri);
+  return dialect::format(title, client.language({}), protocol::name_in(uri));
 }
 
 }  // namespace isocnc::background

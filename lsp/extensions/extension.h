@@ -17,5 +17,6 @@ using features::Json;
 using features::on;
 using features::on_any;
 using features::Snapshot;
+using features::TextContent;
 
 }  // namespace isocnc::extensions

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/text/unicode.h"
 #include "lsp/extensions/extension.h"
+#include "lsp/protocol/uri.h"
 #include "lsp/queries/line_run.h"
+#include "lsp/queries/state_table.h"
 
-/// Our own request `isocnc/state`: the modal state and the position before and after a line.
+/// The modal state and the position before and after a line: as data by our own request `isocnc/state`, and as a text
+/// for people.
 namespace isocnc::extensions {
 namespace {
 
@@ -68,8 +72,22 @@ StateResult answer_state(const Snapshot& snapshot, const StateParams& params) {
   return {queries::run_line(snapshot, params.line)};
 }
 
+/// A heading with the line as it stands in the program, and the table.
+TextContent write_state(const Snapshot& snapshot, const StateParams& params) {
+  static constexpr dialect::Text kNone = {"No path leads here, or paths differ.",
+                                          "Nessun percorso arriva qui, o i percorsi sono diversi."};
+  const dialect::Language language = snapshot.language();
+  std::string heading = fmt::format("{}:{}", protocol::name_in(snapshot.uri()), params.line + std::size_t{1});
+  if (params.line < snapshot.document().line_count())
+    heading += "  " + text::printable(snapshot.document().line(params.line)->text);
+  const std::optional<queries::LineRun> run = queries::run_line(snapshot, params.line);
+  return {fmt::format("{}\n\n{}", heading,
+                      run ? queries::state_table(*run, language) : std::string(kNone.in(language)) + "\n")};
+}
+
 }  // namespace
 
-extern const features::Feature state = {.methods = {on<&answer_state>("isocnc/state")}};
+extern const features::Feature state = {.methods = {on<&answer_state>("isocnc/state")},
+                                        .texts = {on<&write_state>("state")}};
 
 }  // namespace isocnc::extensions

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -7,7 +8,8 @@
 #include "interpreter/text/unicode.h"
 #include "lsp/extensions/extension.h"
 
-/// Our own request `isocnc/syntaxTree`: the trees of some lines as text, which show how a line is parsed.
+/// The trees of some lines as text, which show how a line is parsed: by our own request `isocnc/syntaxTree`, and as a
+/// document.
 namespace isocnc::extensions {
 namespace {
 
@@ -23,6 +25,14 @@ struct TreeParams : protocol::DocumentParams {
 void from_json(const Json& json, TreeParams& params) {
   from_json(json, static_cast<protocol::DocumentParams&>(params));
   params.range = protocol::member<ClientRange>(json, "range");
+}
+
+struct TreeTextParams {
+  std::optional<std::uint32_t> line;
+};
+
+void from_json(const Json& json, TreeTextParams& params) {
+  params.line = protocol::member<std::uint32_t>(json, "line");
 }
 
 std::string_view name_of(InstructionKind kind) {
@@ -81,11 +91,10 @@ class TreeWriter {
   const Snapshot& snapshot_;
 };
 
-std::string answer_syntax_tree(const Snapshot& snapshot, const TreeParams& params) {
+std::string trees(const Snapshot& snapshot, std::size_t first, std::size_t end) {
   const std::size_t count = snapshot.document().line_count();
-  const std::size_t first = params.range ? std::min<std::size_t>(params.range->start.line, count) : 0;
-  const std::size_t end =
-      params.range ? std::min<std::size_t>(params.range->end.line + std::size_t{1}, count) : std::min(count, kMaxLines);
+  first = std::min(first, count);
+  end = std::min(end, count);
   TreeWriter writer(snapshot);
   for (std::size_t line = first; line < end; ++line) {
     if (line % 1'000 == 0) snapshot.throw_if_unwanted();
@@ -94,8 +103,20 @@ std::string answer_syntax_tree(const Snapshot& snapshot, const TreeParams& param
   return writer.text;
 }
 
+std::string answer_syntax_tree(const Snapshot& snapshot, const TreeParams& params) {
+  if (!params.range) return trees(snapshot, 0, kMaxLines);
+  return trees(snapshot, params.range->start.line, params.range->end.line + std::size_t{1});
+}
+
+/// Of one line, or of the whole program.
+TextContent write_syntax_tree(const Snapshot& snapshot, const TreeTextParams& params) {
+  if (!params.line) return {trees(snapshot, 0, kMaxLines)};
+  return {trees(snapshot, *params.line, *params.line + std::size_t{1})};
+}
+
 }  // namespace
 
-extern const features::Feature syntax_tree = {.methods = {on<&answer_syntax_tree>("isocnc/syntaxTree")}};
+extern const features::Feature syntax_tree = {.methods = {on<&answer_syntax_tree>("isocnc/syntaxTree")},
+                                              .texts = {on<&write_syntax_tree>("syntax")}};
 
 }  // namespace isocnc::extensions

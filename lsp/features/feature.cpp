@@ -24,4 +24,6 @@ bool ActionParams::may_want(std::string_view kind) const {
   return wants(kind) || std::any_of(only.begin(), only.end(), [&](const auto& each) { return is_below(each, kind); });
 }
 
+void to_json(Json& json, const TextContent& content) { json = {{"text", content.text}}; }
+
 }  // namespace isocnc::features

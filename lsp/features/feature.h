@@ -92,6 +92,13 @@ struct ActionSource {
   Json (*edit)(const Snapshot& snapshot, const Json& data) = nullptr;
 };
 
+/// The text of a document that the server writes.
+struct TextContent {
+  std::string text;
+};
+
+void to_json(Json& json, const TextContent& content);
+
 /// Sends a notification: method and params, as JSON.
 using Notify = std::function<void(std::string_view method, std::string params)>;
 
@@ -113,6 +120,9 @@ struct Feature {
   /// Commands for `workspace/executeCommand`. The params are the command's first argument: an object whose `uri` names
   /// the document. If the result has an `edit`, the client is asked to apply it.
   std::vector<Method> commands;
+  /// Texts about a program, by their kind, for `workspace/textDocumentContent`. The params have `line`, from 0, if the
+  /// text is about one line; the result is a `TextContent`.
+  std::vector<Method> texts;
   std::vector<ActionSource> actions;
   /// Called after a document has been opened or edited, once no further edit waits.
   void (*changed)(const Snapshot& snapshot, const Notify& notify) = nullptr;

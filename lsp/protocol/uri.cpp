@@ -47,6 +47,8 @@ std::optional<std::filesystem::path> path_of(std::string_view uri) {
   return host.empty() ? std::optional(system::normal(std::filesystem::path(path))) : std::nullopt;
 }
 
+std::string name_in(std::string_view uri) { return unescaped(uri.substr(uri.find_last_of("/:") + 1)); }
+
 bool names_configuration(std::string_view uri) {
   const auto path = path_of(uri);
   return path && (path->filename() == configuration::kFileName || configuration::is_setup_file(*path));
@@ -62,5 +64,37 @@ bool names_shape(std::string_view uri) {
 }
 
 std::string uri_of(const std::filesystem::path& path) { return formats::uri_of(system::generic_name(path)); }
+
+static constexpr std::string_view kLineKey = "line=";
+static constexpr std::string_view kProgramKey = "program=";
+
+std::optional<TextAboutProgram> read_text_uri(std::string_view uri) {
+  const std::string start = fmt::format("{}://", kTextScheme);
+  const std::size_t question_mark = uri.find('?');
+  if (!dialect::begins_with(uri, start) || question_mark == std::string_view::npos) return std::nullopt;
+  const std::string_view rest = uri.substr(start.size(), question_mark - start.size());
+  TextAboutProgram text;
+  text.kind = rest.substr(0, rest.find('/'));
+  // Some editors escape the marks between the members of a query as well. The URI of the program is escaped twice.
+  const std::string unescaped_query = unescaped(uri.substr(question_mark + 1));
+  std::string_view query = unescaped_query;
+  if (query.starts_with(kLineKey)) {
+    query.remove_prefix(kLineKey.size());
+    std::uint32_t line = 0;
+    const auto read = std::from_chars(query.data(), query.data() + query.size(), line);
+    if (read.ec != std::errc{} || read.ptr == query.data() + query.size() || *read.ptr != '&') return std::nullopt;
+    text.line = line;
+    query.remove_prefix(static_cast<std::size_t>(read.ptr + 1 - query.data()));
+  }
+  if (!query.starts_with(kProgramKey)) return std::nullopt;
+  text.program = query.substr(kProgramKey.size());
+  return text;
+}
+
+std::string uri_of(const TextAboutProgram& text) {
+  const std::string line = text.line ? fmt::format("{}{}&", kLineKey, *text.line) : "";
+  return fmt::format("{}://{}/{}.{}?{}{}{}", kTextScheme, text.kind, formats::in_uri(name_in(text.program)), text.kind,
+                     line, kProgramKey, formats::in_uri(text.program));
+}
 
 }  // namespace isocnc::protocol

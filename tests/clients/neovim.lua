@@ -74,6 +74,11 @@ vim.api.nvim_buf_set_lines(buffer, jump - 1, jump, false, { 'n170   if vgpl>=1 g
 vim.lsp.buf.formatting_sync(nil, 20000)
 expect(line(jump) == 'N170 IF VGPL >= 1 GOTO N305', 'formatted: ' .. line(jump))
 
+vim.fn.search('M06 T', 'w')
+vim.cmd('Isocnc state')
+wait(function() return vim.fn.search('^\\* tool ', 'w') > 0 end, 'the state is not shown')
+vim.cmd('bwipeout')
+
 client.stop()
 local status = vim.env.HOME .. '/isols.status'
 wait(function() return vim.fn.getfsize(status) > 0 end, 'the server does not end')

@@ -1,52 +1,18 @@
 /** What the server reports of a program, as documents beside it that follow the cursor: the state, the syntax tree. */
 import * as vscode from 'vscode';
-import { nameOf } from './files';
 import type { Server } from './server';
-import { stateText, type StateAnswer } from './state_text';
 
 const scheme = 'isocnc';
 
-interface Kind {
-  title: () => string;
-  text: (server: Server, document: vscode.TextDocument, line: number) => Promise<string>;
-}
-
-const kinds: Record<string, Kind> = {
-  state: { title: () => vscode.l10n.t('State'), text: state },
-  syntax: { title: () => vscode.l10n.t('Syntax Tree'), text: syntaxTree },
+/** The texts that the server writes about a program, and the titles of their tabs. */
+const titles: Record<string, () => string> = {
+  state: () => vscode.l10n.t('State'),
+  syntax: () => vscode.l10n.t('Syntax Tree'),
 };
 
-/** All that stands in the table of states. */
-const words: Record<string, () => string> = {
-  before: () => vscode.l10n.t('before'),
-  after: () => vscode.l10n.t('after'),
-  position: () => vscode.l10n.t('position'),
-  'machine position': () => vscode.l10n.t('machine position'),
-  'workpiece zero': () => vscode.l10n.t('workpiece zero'),
-  tool: () => vscode.l10n.t('tool'),
-  spindle: () => vscode.l10n.t('spindle'),
-  'feed rate': () => vscode.l10n.t('feed rate'),
-  motion: () => vscode.l10n.t('motion'),
-  'arc plane': () => vscode.l10n.t('arc plane'),
-  'face frame': () => vscode.l10n.t('face frame'),
-  dimensions: () => vscode.l10n.t('dimensions'),
-  units: () => vscode.l10n.t('units'),
-  'feed mode': () => vscode.l10n.t('feed mode'),
-  interpolation: () => vscode.l10n.t('interpolation'),
-  'cutter compensation': () => vscode.l10n.t('cutter compensation'),
-  'profile reduction': () => vscode.l10n.t('profile reduction'),
-  'No path leads here, or paths differ.': () => vscode.l10n.t('No path leads here, or paths differ.'),
-};
-
-async function state(server: Server, document: vscode.TextDocument, line: number): Promise<string> {
-  const answer = await server.request<StateAnswer>('isocnc/state', { textDocument: { uri: document.uri.toString() }, line });
-  const heading = `${nameOf(document.uri)}:${line + 1}  ${document.lineAt(line).text.trim()}`;
-  return stateText(answer, heading, (text) => words[text]());
-}
-
-async function syntaxTree(server: Server, document: vscode.TextDocument, line: number): Promise<string> {
-  const range = new vscode.Range(line, 0, line, document.lineAt(line).text.length);
-  return server.request<string>('isocnc/syntaxTree', { textDocument: { uri: document.uri.toString() }, range });
+async function textAbout(server: Server, kind: string, program: vscode.TextDocument, line: number): Promise<string> {
+  const uri = `${scheme}://${kind}/?line=${line}&program=${encodeURIComponent(program.uri.toString())}`;
+  return (await server.request<{ text: string }>('workspace/textDocumentContent', { uri })).text;
 }
 
 export function activate(context: vscode.ExtensionContext, server: Server): void {
@@ -81,7 +47,7 @@ class VirtualDocuments implements vscode.TextDocumentContentProvider, vscode.Dis
     ];
   }
 
-  async open(kind: keyof typeof kinds, document: vscode.TextDocument): Promise<void> {
+  async open(kind: string, document: vscode.TextDocument): Promise<void> {
     this.program = document;
     this.line = vscode.window.activeTextEditor?.selection.active.line ?? 0;
     const uri = this.uri(kind);
@@ -93,7 +59,7 @@ class VirtualDocuments implements vscode.TextDocumentContentProvider, vscode.Dis
   async provideTextDocumentContent(uri: vscode.Uri): Promise<string> {
     if (!this.program) return '';
     try {
-      return await kinds[uri.authority].text(this.server, this.program, this.line);
+      return await textAbout(this.server, uri.authority, this.program, this.line);
     } catch (error) {
       return (error as Error).message;
     }
@@ -105,7 +71,7 @@ class VirtualDocuments implements vscode.TextDocumentContentProvider, vscode.Dis
   }
 
   private uri(kind: string): vscode.Uri {
-    return vscode.Uri.from({ scheme, authority: kind, path: `/${kinds[kind].title()}` });
+    return vscode.Uri.from({ scheme, authority: kind, path: `/${titles[kind]()}` });
   }
 
   private follow(document: vscode.TextDocument, line: number): void {

@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
+import { ShowDocumentRequest, TextDocumentContentRefreshRequest, TextDocumentContentRequest } from 'vscode-languageserver-protocol';
 import { Client, isolint, root } from './client.mjs';
 
 const file = path.join(root, 'examples/broken/option.iso');
@@ -91,5 +92,28 @@ test('what else an editor shows of a program', async () => {
   const { data } = await client.request('textDocument/semanticTokens/full', { textDocument });
   assert.equal(data.length % 5, 0);
   assert.ok(data.length > 0);
+  assert.equal(await client.stop(), 0);
+});
+
+test('the state and the syntax of a line are documents of the server', async () => {
+  const { client, uri } = await opened({ workspace: { textDocumentContent: {} }, window: { showDocument: { support: true } } });
+  const [scheme] = client.initialized.capabilities.workspace.textDocumentContent.schemes;
+  const shown = new Promise((resolve) => {
+    client.connection.onRequest(ShowDocumentRequest.type, (params) => {
+      resolve(params.uri);
+      return { success: true };
+    });
+  });
+  const refreshed = new Promise((resolve) => {
+    client.connection.onRequest(TextDocumentContentRefreshRequest.type, (params) => resolve(params.uri));
+  });
+  await client.request('workspace/executeCommand', { command: 'isocnc.showText', arguments: [{ uri, line: jump, text: 'state' }] });
+  const place = await shown;
+  assert.ok(place.startsWith(`${scheme}://state/option.iso.state?`));
+  const content = () => client.connection.sendRequest(TextDocumentContentRequest.type, { uri: place });
+  assert.match((await content()).text, new RegExp(`^option\\.iso:${jump + 1} .*GOTO N300\n`));
+  client.change(uri, 2, { range: { start: { line: 0, character: 0 }, end: { line: 0, character: 0 } }, text: '\n' });
+  assert.equal(await refreshed, place);
+  assert.doesNotMatch((await content()).text, /GOTO/);
   assert.equal(await client.stop(), 0);
 });
