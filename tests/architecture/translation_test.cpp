@@ -43,6 +43,8 @@ const std::vector<Translation> kPages = {{"docs/README.md", "docs/it/README.md"}
                                          {"docs/rules.md", "docs/it/codici.md"},
                                          {"docs/other-controls.md", "docs/it/altri-controlli.md"},
                                          {"docs/vscode.md", "docs/it/vscode.md"},
+                                         {"docs/editors.md", "docs/it/editor.md"},
+                                         {"docs/packages.md", "docs/it/installare.md"},
                                          {"docs/verification.md", "docs/it/verifica.md"},
                                          {"vscode-extension/README.md", "docs/it/estensione.md"}};
 
