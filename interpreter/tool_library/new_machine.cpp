@@ -31,8 +31,11 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr Text kIntroduction{
-    "Questions about the machine. An empty line leaves one open; what is in brackets then holds.",
-    "Domande sulla macchina. Una riga vuota lascia la risposta aperta; vale allora ciò che è fra parentesi quadre."};
+    "Questions about the machine. An empty line leaves one open; what is in brackets then holds. < goes back to the "
+    "question before.",
+    "Domande sulla macchina. Una riga vuota lascia la risposta aperta; vale allora ciò che è fra parentesi quadre. < "
+    "torna alla domanda precedente."};
+constexpr std::string_view kBack = "<";
 constexpr Text kNotChecked{"not checked", "non controllato"};
 constexpr Text kNoAnswer{"{} is neither a number nor one of the words that are asked for",
                          "{} non è né un numero né una delle parole richieste"};
@@ -70,12 +73,25 @@ class Questionnaire {
   /// The machine with comments; none if the answers end early.
   std::optional<std::string> machine(const std::string& line_end) {
     questions_ << kIntroduction.in(language_) << '\n';
-    for (const std::string_view path : kQuestions)
-      if (is_asked(path) && !ask(key_at(path))) return std::nullopt;
+    std::vector<std::size_t> answered;
+    for (std::size_t i = 0; i < std::size(kQuestions);) {
+      const Reply reply = is_asked(kQuestions[i]) ? ask(key_at(kQuestions[i])) : Reply::NotAsked;
+      if (reply == Reply::End) return std::nullopt;
+      if (reply == Reply::Taken) answered.push_back(i);
+      if (reply != Reply::Back) {
+        ++i;
+      } else if (!answered.empty()) {
+        i = answered.back();
+        answered.pop_back();
+        forget(kQuestions[i]);
+      }
+    }
     return text_of(machine_, "machine", "  ", line_end);
   }
 
  private:
+  enum class Reply { NotAsked, Taken, Back, End };
+
   bool is_asked(std::string_view path) const {
     const std::string kind = machine_.value(ordered_json::json_pointer("/kinematics/type"), "head");
     const bool is_rotary = path.find(".B.") != std::string_view::npos || path.find(".C.") != std::string_view::npos ||
@@ -84,8 +100,7 @@ class Questionnaire {
     return path != "machine.kinematics.pivot" || kind == "head";
   }
 
-  /// False if there are no more answers.
-  bool ask(const Key& key) {
+  Reply ask(const Key& key) {
     while (true) {
       questions_ << '\n'
                  << key.documentation.in(language_) << '\n'
@@ -94,11 +109,23 @@ class Questionnaire {
       if (!key.choices.empty()) questions_ << ", " << fmt::format("{}", fmt::join(key.choices, " / "));
       questions_ << " [" << fallback_of(key) << "]: " << std::flush;
       std::string line;
-      if (!std::getline(answers_, line)) return false;
+      if (!std::getline(answers_, line)) return Reply::End;
       line.erase(0, std::min(line.find_first_not_of(" \t"), line.size()));
       line.resize(line.find_last_not_of(" \t\r") + 1);
-      if (line.empty() || take(key, line)) return true;
+      if (line == kBack) return Reply::Back;
+      if (line.empty() || take(key, line)) return Reply::Taken;
     }
+  }
+
+  /// Takes an answer back, and the objects that held nothing else.
+  void forget(std::string_view path) {
+    ordered_json::json_pointer place;
+    for (const std::string& part : parts_of(path)) place /= part;
+    if (!machine_.contains(place)) return;
+    do {
+      machine_[place.parent_pointer()].erase(place.back());
+      place.pop_back();
+    } while (!place.empty() && machine_[place].empty());
   }
 
   /// What holds without an answer.

@@ -444,6 +444,18 @@ TEST(NewMachine, IsWhatWasAnswered) {
   EXPECT_EQ(machine.timed.durations.tool_change, 12.5);
 }
 
+TEST(NewMachine, GoesBackToTheQuestionBefore) {
+  // The first question has none before it. A wrong minimum refuses the maximum, and is corrected.
+  std::istringstream answers("<\ntable\n<\nthree-axis\n500\n300\n<\n0\n300\n7\n<\n" + std::string(30, '\n'));
+  std::ostringstream questions;
+  const std::string text = ask_for_machine("", answers, questions, Language::English).value_or("none");
+  const MachineConfiguration machine = machine_of(text);
+  EXPECT_EQ(machine.kind, "three-axis");
+  EXPECT_EQ(machine.setup.limits.travel[0].minimum, 0);
+  EXPECT_EQ(machine.setup.limits.travel[0].maximum, 300);
+  EXPECT_THAT(text, testing::Not(HasSubstr("\"Y\""))) << "its minimum has been taken back";
+}
+
 TEST(NewMachine, AsksAgainForWhatCannotBe) {
   std::istringstream answers("ball\n\n0\n-5\n3200\n");
   std::ostringstream questions;
