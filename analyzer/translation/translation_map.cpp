@@ -27,8 +27,6 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr Text kNeedsObject{"an object in braces is needed here", "qui ci vuole un oggetto fra graffe"};
-constexpr Text kNeedsText{"a text in quotes is needed here", "qui ci vuole un testo fra virgolette"};
 constexpr Text kNeedsPoint{"three numbers are needed here, [X, Y, Z] in mm",
                            "qui ci vogliono tre numeri, [X, Y, Z] in mm"};
 constexpr Text kNeedsClearance{"a length above 0 is needed here, in mm", "qui ci vuole una lunghezza sopra 0, in mm"};
@@ -84,7 +82,7 @@ class MapReader {
 
   template <class Function>
   void each_member(const JsonValue& value, const std::string& key, Function&& read_member) {
-    if (value.kind != JsonValue::Kind::Object) return fail(value.at, key, kNeedsObject);
+    if (value.kind != JsonValue::Kind::Object) return fail(value.at, key, configuration::mistakes::kNeedsObject);
     std::map<std::string, std::size_t> seen;
     for (const JsonMember& member : value.members) {
       if (!seen.try_emplace(member.key, member.at).second)
@@ -118,7 +116,7 @@ class MapReader {
 
   std::optional<std::string> tool_place(const JsonValue& value, const std::string& key) {
     if (value.kind != JsonValue::Kind::String) {
-      fail(value.at, key, kNeedsText);
+      fail(value.at, key, configuration::mistakes::kNeedsText);
       return std::nullopt;
     }
     const auto place = tool_library::read_tool_place(value.string);
@@ -182,7 +180,8 @@ class MapReader {
       map_.functions[name] = 0;
       return;
     }
-    if (member.value.kind != JsonValue::Kind::String) return fail(member.value.at, key, kNeedsText);
+    if (member.value.kind != JsonValue::Kind::String)
+      return fail(member.value.at, key, configuration::mistakes::kNeedsText);
     const int number = number_after('M', member.value.string);
     if (number < 1 || number > 999 || (number >= 2 && number <= 6))
       return fail(member.value.at, key, kNoShopFunction, {configuration::shortened(member.value.string)});
@@ -191,7 +190,8 @@ class MapReader {
 
   template <class Function>
   void read_choice(const JsonMember& member, std::array<std::string_view, 2> choices, Function&& set) {
-    if (member.value.kind != JsonValue::Kind::String) return fail(member.value.at, member.key, kNeedsText);
+    if (member.value.kind != JsonValue::Kind::String)
+      return fail(member.value.at, member.key, configuration::mistakes::kNeedsText);
     if (member.value.string == choices[0]) return set(false);
     if (member.value.string == choices[1]) return set(true);
     fail(member.value.at, member.key, map_problems::kNoChoiceOf,

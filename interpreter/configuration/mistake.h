@@ -97,6 +97,10 @@ inline constexpr dialect::Text kBadNumber = {"not a number as JSON writes it", "
 inline constexpr dialect::Text kHugeNumber = {"a number that is too large", "numero troppo grande"};
 
 inline constexpr dialect::Text kWrongKind = {"this is {0}, and {1} is needed", "questo è {0}; ci vuole {1}"};
+inline constexpr dialect::Text kNeedsObject = {"an object in braces is needed here",
+                                               "qui ci vuole un oggetto fra graffe"};
+inline constexpr dialect::Text kNeedsList = {"a list in brackets is needed here", "qui ci vuole un elenco fra quadre"};
+inline constexpr dialect::Text kNeedsText = {"a text in quotes is needed here", "qui ci vuole un testo fra virgolette"};
 inline constexpr dialect::Text kTextOrTexts = {"text, or an object with it and en",
                                                "un testo, o un oggetto con en e it"};
 inline constexpr dialect::Text kUnknownKey = {"unknown key", "chiave sconosciuta"};

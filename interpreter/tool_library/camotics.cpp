@@ -14,7 +14,7 @@ using configuration::JsonValue;
 static std::optional<LibraryTool> read_tool(const JsonMember& member, const std::string& path, LibraryFile& file) {
   const JsonValue& value = member.value;
   if (value.kind != JsonValue::Kind::Object) {
-    file.fail(value.at, path, problems::kNeedsObject);
+    file.fail(value.at, path, configuration::mistakes::kNeedsObject);
     return std::nullopt;
   }
   double millimeters = 1;

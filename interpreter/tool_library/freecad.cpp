@@ -115,7 +115,7 @@ void set_shape(std::string_view shape, const Parameters& parameters, LibraryTool
 std::optional<LibraryTool> read_freecad_bit(const JsonValue& bit, LibraryFile& file) {
   const JsonValue* const found = member_of(bit, "parameter");
   if (found == nullptr || found->kind != JsonValue::Kind::Object) {
-    file.fail(found == nullptr ? bit.at : found->at, "parameter", problems::kNeedsObject);
+    file.fail(found == nullptr ? bit.at : found->at, "parameter", configuration::mistakes::kNeedsObject);
     return std::nullopt;
   }
   const Parameters parameters(*found, file);

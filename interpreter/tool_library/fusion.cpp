@@ -31,7 +31,7 @@ std::optional<configuration::NamedRows> read_holder(const JsonValue& holder, con
   const JsonValue* const segments = member_of(holder, "segments");
   if (!millimeters || segments == nullptr) return std::nullopt;
   if (segments->kind != Kind::List) {
-    file.fail(segments->at, path + ".segments", problems::kNeedsList);
+    file.fail(segments->at, path + ".segments", configuration::mistakes::kNeedsList);
     return std::nullopt;
   }
   const std::optional<double> gauge = JsonTool(holder, path, *millimeters, file).length("gaugeLength");
@@ -85,7 +85,7 @@ void set_shape(std::string_view type, const JsonTool& geometry, LibraryTool& rea
 std::optional<LibraryTool> read_tool(const JsonValue& value, const std::string& path, double otherwise,
                                      LibraryFile& file) {
   if (value.kind != Kind::Object) {
-    file.fail(value.at, path, problems::kNeedsObject);
+    file.fail(value.at, path, configuration::mistakes::kNeedsObject);
     return std::nullopt;
   }
   const std::string type = text_of(value, "type");
@@ -130,7 +130,7 @@ std::optional<LibraryTool> read_tool(const JsonValue& value, const std::string& 
 std::vector<LibraryTool> read_fusion(const JsonValue& library, double millimeters, LibraryFile& file) {
   std::vector<LibraryTool> tools;
   const JsonValue& data = *member_of(library, "data");
-  if (data.kind != Kind::List) file.fail(data.at, "data", problems::kNeedsList);
+  if (data.kind != Kind::List) file.fail(data.at, "data", configuration::mistakes::kNeedsList);
   for (std::size_t i = 0; i < data.elements.size(); ++i)
     if (auto tool = read_tool(data.elements[i], fmt::format("data[{}]", i), millimeters, file))
       tools.push_back(*std::move(tool));

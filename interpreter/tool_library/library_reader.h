@@ -40,9 +40,6 @@ class LibraryFile {
 };
 
 namespace problems {
-inline constexpr dialect::Text kNeedsObject{"an object in braces is needed here", "qui ci vuole un oggetto fra graffe"};
-inline constexpr dialect::Text kNeedsList{"a list in brackets is needed here", "qui ci vuole un elenco fra quadre"};
-inline constexpr dialect::Text kNeedsText{"a text in quotes is needed here", "qui ci vuole un testo fra virgolette"};
 inline constexpr dialect::Text kNeedsLength{"{0} is no length of a tool: above 0 and at most 10000 mm",
                                             "{0} non è una lunghezza di un utensile: sopra 0 e fino a 10000 mm"};
 inline constexpr dialect::Text kNeedsAngle{"{0} is no angle of a tool: above 0 and below 180 degrees",

@@ -100,7 +100,7 @@ std::optional<JsonValue> object_in(LibraryFile& file) {
   }
   std::optional<JsonValue> value = std::get<JsonValue>(std::move(parsed));
   if (value->kind != Kind::Object) {
-    file.fail(value->at, {}, problems::kNeedsObject);
+    file.fail(value->at, {}, configuration::mistakes::kNeedsObject);
     value.reset();
   }
   return value;
@@ -143,7 +143,7 @@ void read_freecad_library(const std::filesystem::path& path, LibraryFile& file, 
   if (!value) return;
   const JsonValue* const tools = member_of(*value, "tools");
   if (tools == nullptr || tools->kind != Kind::List)
-    return file.fail(tools == nullptr ? value->at : tools->at, "tools", problems::kNeedsList);
+    return file.fail(tools == nullptr ? value->at : tools->at, "tools", configuration::mistakes::kNeedsList);
   if (tools->elements.size() > kMostTools) return file.fail(tools->at, "tools", kTooMany);
   for (std::size_t i = 0; i < tools->elements.size(); ++i) {
     const JsonValue& entry = tools->elements[i];

@@ -43,7 +43,7 @@ std::string unread_message(const std::filesystem::path& file, const system::File
 }
 
 static void read_tools(const JsonValue& tools, LibraryFile& file, ToolMap& map) {
-  if (tools.kind != JsonValue::Kind::Object) return file.fail(tools.at, "tools", problems::kNeedsObject);
+  if (tools.kind != JsonValue::Kind::Object) return file.fail(tools.at, "tools", configuration::mistakes::kNeedsObject);
   for (const JsonMember& member : tools.members) {
     const std::string key = "tools." + configuration::shortened(member.key);
     if (map.places.contains(member.key)) {
@@ -51,7 +51,7 @@ static void read_tools(const JsonValue& tools, LibraryFile& file, ToolMap& map) 
       continue;
     }
     if (member.value.kind != JsonValue::Kind::String) {
-      file.fail(member.value.at, key, problems::kNeedsText);
+      file.fail(member.value.at, key, configuration::mistakes::kNeedsText);
       continue;
     }
     const std::string written = configuration::shortened(member.value.string);
@@ -84,7 +84,7 @@ std::variant<ToolMap, std::string> load_tool_map(const std::filesystem::path& pa
   if (const auto* const mistake = std::get_if<configuration::Mistake>(&parsed)) {
     file.fail(mistake->at, mistake->key, mistake->text, mistake->names);
   } else if (const JsonValue& root = std::get<JsonValue>(parsed); root.kind != JsonValue::Kind::Object) {
-    file.fail(root.at, {}, problems::kNeedsObject);
+    file.fail(root.at, {}, configuration::mistakes::kNeedsObject);
   } else {
     if (const JsonValue* const units = member_of(root, "units")) {
       map.is_in_inches = units->string == "inch";
