@@ -4,6 +4,7 @@
 #include "analyzer/fixes/centered_arcs.h"
 #include "analyzer/fixes/habits.h"
 #include "analyzer/fixes/line_edits.h"
+#include "interpreter/dialect/format.h"
 
 namespace isocnc::fixes {
 
@@ -76,7 +77,7 @@ Draft center_completed(const FixRequest& request) {
   const Word& given = has_u ? *arc->center_u : *arc->center_v;
   const PlanePoint in_program = arc->in_program(center);
   const char letter = has_u ? arc->plane->v_center : arc->plane->u_center;
-  std::string word = letter + written(has_u ? in_program.v : in_program.u, 6);
+  std::string word = letter + dialect::written_number(has_u ? in_program.v : in_program.u, 6);
   if (letter < given.letter) return {{inserted(request, given.begin, word + " ")}, word};
   return {{inserted(request, given.end, " " + word)}, word};
 }
@@ -125,7 +126,7 @@ Draft radius_large_enough(const FixRequest& request) {
   if (request.marked().find('(') != std::string_view::npos) return {};
   // The finding's radius in mm, divided by the word's value, is the length of a unit.
   const double minimum = std::ceil(needed * word->value / radius * 1e4 - 1e-6) / 1e4;
-  std::string larger = request.marked().front() + written(minimum, 4);
+  std::string larger = request.marked().front() + dialect::written_number(minimum, 4);
   return {{replaced(request, request.finding.span, larger)}, larger};
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analyzer/fixes/line_edits.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/execution/execute.h"
 #include "interpreter/execution/silent_sink.h"
 
@@ -87,8 +88,8 @@ PlanePoint rounded_center(const ArcOfProgram& arc, PlanePoint center, int decima
 
 WrittenCenter center_written(const ArcOfProgram& arc, std::size_t line, PlanePoint center, int decimals) {
   const PlanePoint in_program = arc.in_program(center);
-  const std::string u = arc.plane->u_center + written(in_program.u, decimals);
-  const std::string v = arc.plane->v_center + written(in_program.v, decimals);
+  const std::string u = arc.plane->u_center + dialect::written_number(in_program.u, decimals);
+  const std::string v = arc.plane->v_center + dialect::written_number(in_program.v, decimals);
   const auto edit = [&](std::uint32_t begin, std::uint32_t end, std::string text) {
     return Edit{{line, begin}, {line, end}, std::move(text)};
   };

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analyzer/fixes/line_edits.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/syntax/tree_store.h"
 #include "interpreter/text/characters.h"
 
@@ -68,7 +69,7 @@ std::optional<DrillingCycle> cycle_of(const FixRequest& request, const State& be
   if (!to_height && ((before.unknown & z) != 0 || start < height->value)) return std::nullopt;
   DrillingCycle cycle{.depth = std::string(line.text_of(depth->span())),
                       .height = "Z" + std::string(text::trimmed(line.text_of(height->span()).substr(1)))};
-  cycle.retract = to_height ? cycle.height : "Z" + written(start, 4);
+  cycle.retract = to_height ? cycle.height : "Z" + dialect::written_number(start, 4);
   if (feed) cycle.feed = " " + std::string(line.text_of(feed->span()));
   return cycle;
 }

@@ -5,6 +5,7 @@
 
 #include "analyzer/fixes/centered_arcs.h"
 #include "analyzer/fixes/line_edits.h"
+#include "interpreter/dialect/format.h"
 
 namespace isocnc::fixes {
 
@@ -188,7 +189,7 @@ Habits::FoundRewrites Habits::find_milliseconds() {
           time->known() && time->value >= kFewMilliseconds && text.find_first_of(".(") == std::string_view::npos;
       if (!may_be_milliseconds) return {};
       found.is_shown |= time->value > program_.thresholds().longest_dwell;
-      std::string what = text.front() + written(time->value / 1000, 6);
+      std::string what = text.front() + dialect::written_number(time->value / 1000, 6);
       found.rewrites.push_back({number, {{{number, time->begin}, {number, time->end}, what}}, what});
     }
   }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "interpreter/text/characters.h"
 
 namespace isocnc::fixes {
@@ -96,15 +94,6 @@ const Word* first_word(const LineTree& line) {
   const auto first =
       std::find_if(line.words.begin(), line.words.end(), [](const Word& word) { return word.letter != 'N'; });
   return first != line.words.end() ? &*first : nullptr;
-}
-
-std::string written(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-  }
-  return text == "-0" ? "0" : text;
 }
 
 }  // namespace isocnc::fixes

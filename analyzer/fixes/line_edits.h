@@ -40,7 +40,4 @@ bool is_g(const syntax::Word& word, double number);
 /// The first word that is no line number, or null.
 const syntax::Word* first_word(const syntax::LineTree& line);
 
-/// A number as programs write it: at most `decimals` decimals, without trailing zeros.
-std::string written(double value, int decimals);
-
 }  // namespace isocnc::fixes

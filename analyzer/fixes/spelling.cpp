@@ -6,6 +6,7 @@
 
 #include "analyzer/fixes/habits.h"
 #include "analyzer/fixes/line_edits.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/text/characters.h"
 #include "interpreter/text/unicode.h"
 
@@ -113,7 +114,7 @@ Draft angle_in_range(const FixRequest& request) {
   const double angle = std::remainder(request.finding.values[0], 360);
   if (!(std::abs(angle) <= request.finding.values[1]) || request.marked().find('(') != std::string_view::npos)
     return {};
-  return rewritten(request, request.marked().front() + written(angle, decimals_of(request.marked())));
+  return rewritten(request, request.marked().front() + dialect::written_number(angle, decimals_of(request.marked())));
 }
 
 Draft comparison(const FixRequest& request) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analyzer/fixes/line_edits.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/execution/block_recorder.h"
 #include "interpreter/execution/plane.h"
 #include "interpreter/syntax/tree_store.h"
@@ -75,7 +76,7 @@ std::string number_text(double value, double rounding) {
     if (std::abs(std::round(value * power) / power - value) <= rounding) break;
     ++decimals;
   }
-  return fixes::written(value, decimals);
+  return dialect::written_number(value, decimals);
 }
 
 /// The rewritten words of one line.

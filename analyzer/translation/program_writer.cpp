@@ -2,18 +2,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace isocnc::translation {
-
-std::string written_number(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-  }
-  return text == "-0" ? "0" : text;
-}
 
 /// A comment of the original. One without its closing parenthesis would be an error here.
 static std::string written_comment(std::string_view comment) {

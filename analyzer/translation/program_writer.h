@@ -5,10 +5,12 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/dialect/format.h"
+
 namespace isocnc::translation {
 
-/// A number of the dialect: at most this many decimals, and no zeros that mean nothing.
-std::string written_number(double value, int decimals = 6);
+/// A number of a translation: at most this many decimals.
+inline std::string written_number(double value, int decimals = 6) { return dialect::written_number(value, decimals); }
 
 /// Writes the translation, block after block of the original. A block may take several lines; its line number stands in
 /// the first line with code. Its comments follow the code where that is one line, and stand above it otherwise.

@@ -272,11 +272,8 @@ std::string show_value(double value, const ValueFormat& format) {
   if (std::isinf(value)) return value < 0 ? "-∞" : "∞";
   if (format.is_hexadecimal && value == std::floor(value) && std::abs(value) < kMaxInteger)
     return fmt::format("{}0x{:X}", value < 0 ? "-" : "", static_cast<std::uint64_t>(std::abs(value)));
-  std::string text = fmt::format("{:.{}f}", value, format.decimals);
-  if (!format.keeps_zeros && text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.ends_with('.')) text.pop_back();
-  }
+  if (!format.keeps_zeros) return dialect::written_number(value, format.decimals);
+  const std::string text = fmt::format("{:.{}f}", value, format.decimals);
   return text == "-0" ? "0" : text;
 }
 

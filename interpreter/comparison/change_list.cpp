@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/dialect/format.h"
+
 namespace isocnc::comparison {
 
 using geometry::Vec3;
@@ -17,13 +19,7 @@ namespace {
 
 constexpr double kSameFeed = 1e-4;  ///< Relative: what F loses where it is written in inches or under G93.
 
-/// A number without zeros at its end.
-std::string shown(double number) {
-  std::string text = fmt::format("{:.4f}", number);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text == "-0" ? "0" : text;
-}
+std::string shown(double number) { return dialect::written_number(number, 4); }
 
 /// What comes after the last action comes where that is.
 std::size_t start_of(const RecordedRun& run, std::size_t begin) {

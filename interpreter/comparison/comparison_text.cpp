@@ -90,19 +90,13 @@ constexpr Text kExtent{"extent in {}: {} to {}, was {} to {} (machine)\n",
 constexpr Text kOneDifference{"1 difference", "1 differenza"};
 constexpr Text kDifferences{"{} differences", "{} differenze"};
 
-/// A number without zeros at its end.
-std::string trimmed(double number) {
-  std::string text = fmt::format("{:.3f}", number);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text == "-0" ? "0" : text;
-}
+std::string in_thousandths(double number) { return dialect::written_number(number, 3); }
 
 /// The vector as programs write it: `X10 Z-0.5`; what rounds to 0 is left out.
 std::string shown_shift(const geometry::Vec3& shift) {
   std::string text;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string number = trimmed(shift[axis]);
+    const std::string number = in_thousandths(shift[axis]);
     if (number == "0") continue;
     text += fmt::format("{}{}{}", text.empty() ? "" : " ", "XYZ"[axis], number);
   }
@@ -114,7 +108,7 @@ std::string shown_count(std::size_t count, Language language) {
 }
 
 /// A distance below the last decimal shown has more.
-std::string shown_distance(double mm) { return mm < 0.01 ? fmt::format("{:.2g}", mm) : trimmed(mm); }
+std::string shown_distance(double mm) { return mm < 0.01 ? fmt::format("{:.2g}", mm) : in_thousandths(mm); }
 
 std::string shown_lines(const ChangedLines& lines, Language language) {
   return lines.first == lines.last ? dialect::format(kLine, language, lines.first + 1)
@@ -138,7 +132,7 @@ std::string moved_in_words(const BehaviorChange& change, Language language) {
     text = dialect::format(kMovedUpTo, language, shown_distance(std::max(*change.distance, change.end_distance)));
   }
   if (change.turned == 0) return text.empty() ? std::string(kMoved.in(language)) : text;
-  const std::string degrees = trimmed(change.turned);
+  const std::string degrees = in_thousandths(change.turned);
   return text + (text.empty() ? "" : ", ") +
          (degrees == "1" ? std::string(kTurnedByOne.in(language)) : dialect::format(kTurned, language, degrees));
 }
@@ -313,16 +307,16 @@ std::string totals_text(const ComparedRuns& runs, Language language) {
     text += dialect::format(kCycleTime, language, simulation::shown_time(new_run.seconds),
                             simulation::shown_time(old_run.seconds), new_run.seconds - old_run.seconds);
   if (shows_mm(new_run.feed_mm - old_run.feed_mm))
-    text += dialect::format(kFeedLength, language, trimmed(new_run.feed_mm), trimmed(old_run.feed_mm));
+    text += dialect::format(kFeedLength, language, in_thousandths(new_run.feed_mm), in_thousandths(old_run.feed_mm));
   if (shows_mm(new_run.rapid_mm - old_run.rapid_mm))
-    text += dialect::format(kRapidLength, language, trimmed(new_run.rapid_mm), trimmed(old_run.rapid_mm));
+    text += dialect::format(kRapidLength, language, in_thousandths(new_run.rapid_mm), in_thousandths(old_run.rapid_mm));
   if (!old_run.has_motion || !new_run.has_motion) return text;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const geometry::Range& before = old_run.extents[axis];
     const geometry::Range& now = new_run.extents[axis];
     if (!shows_mm(before.minimum - now.minimum) && !shows_mm(before.maximum - now.maximum)) continue;
-    text += dialect::format(kExtent, language, "XYZ"[axis], trimmed(now.minimum), trimmed(now.maximum),
-                            trimmed(before.minimum), trimmed(before.maximum));
+    text += dialect::format(kExtent, language, "XYZ"[axis], in_thousandths(now.minimum), in_thousandths(now.maximum),
+                            in_thousandths(before.minimum), in_thousandths(before.maximum));
   }
   return text;
 }

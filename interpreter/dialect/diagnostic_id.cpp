@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/dialect/any_case.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/dialect/letters.h"
 
 namespace isocnc::dialect {
@@ -18,14 +19,12 @@ std::optional<DiagnosticId> find_diagnostic(std::string_view code_or_name) {
 }
 
 std::string format_value(double value) {
+  constexpr double kHuge = 1e18;
   if (!std::isfinite(value)) return fmt::format("{}", value);
-  std::string text = fmt::format("{:.4f}", value);
-  if (text.size() > 24) return fmt::format("{:.6g}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  // A value below the printed decimals must not read as 0, nor any value as "-0".
-  if ((text == "0" || text == "-0") && value != 0) return fmt::format("{:.3g}", value);
-  return text == "-0" ? "0" : text;
+  if (std::abs(value) >= kHuge) return fmt::format("{:.6g}", value);
+  std::string text = written_number(value, 4);
+  // A value below the printed decimals must not read as 0.
+  return text == "0" && value != 0 ? fmt::format("{:.3g}", value) : text;
 }
 
 std::string_view unit_of_length(bool is_in_inches, Language language) {

@@ -84,14 +84,7 @@ constexpr Text kCheckedBy{"Checked by", "Controllato da"};
 
 std::string worded(const Text& text, Language language) { return std::string(text.in(language)); }
 
-std::string number(double value, int decimals = 3) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  if (decimals > 0) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.ends_with('.')) text.pop_back();
-  }
-  return text == "-0" ? "0" : text;
-}
+std::string number(double value, int decimals = 3) { return dialect::written_number(value, decimals); }
 
 std::string shown(const Range& range, int decimals = 3) {
   const std::string least = number(range.minimum, decimals);
