@@ -22,7 +22,6 @@ using stock::SweepPurpose;
 /// Stretches that wait at most.
 static constexpr std::size_t kBatch = 16'384;
 /// Incidents that are kept.
-static constexpr std::size_t kMaxIncidents = 10'000;
 /// Ways on which nothing may be cut, of which the rest is removed later, at most.
 static constexpr std::size_t kMostPassed = 256;
 /// What is cut of a wall counts as a pass of its depth if it is wider than this part of the cutter's radius: what a
@@ -754,11 +753,7 @@ void MaterialCheck::close_all() {
 }
 
 void MaterialCheck::keep(Incident incident) {
-  if (incidents_.size() < kMaxIncidents) {
-    incidents_.push_back(std::move(incident));
-  } else {
-    ++left_out_;
-  }
+  if (kept_.keeps({incident.kind, incident.part, incident.tool})) incidents_.push_back(std::move(incident));
 }
 
 /// Whether an incident says what another one of the same moment says better: a tool that is too deep is so with all of
@@ -845,7 +840,7 @@ void MaterialCheck::look_for_loose_pieces() {
 
 void MaterialCheck::forget_past() {
   incidents_.clear();
-  left_out_ = 0;
+  kept_ = {};
   looked_at_ = 0;
   by_line_.clear();
   by_stretch_.clear();

@@ -4,10 +4,12 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "interpreter/removal/incident.h"
+#include "interpreter/removal/kept_repeats.h"
 #include "interpreter/removal/tip_paths.h"
 #include "interpreter/removal/tool_forms.h"
 #include "interpreter/simulation/run_findings.h"
@@ -63,7 +65,7 @@ class MaterialCheck {
 
   /// After finish(): by time.
   const std::vector<Incident>& incidents() const { return incidents_; }
-  std::size_t left_out() const { return left_out_; }  ///< Incidents beyond those that are kept.
+  std::size_t left_out() const { return kept_.left_out(); }  ///< Incidents that are not kept.
   /// After finish(), in the order of their first use.
   const std::vector<RemovedByTool>& removed_by_tool() const { return by_tool_; }
   /// After finish(): lines that removed something, in the order of the run.
@@ -211,7 +213,7 @@ class MaterialCheck {
   static constexpr std::size_t kMaxLookedAt = 500;
   std::size_t looked_at_ = 0;
   std::vector<Incident> incidents_;
-  std::size_t left_out_ = 0;
+  KeptRepeats<std::tuple<IncidentKind, ToolPart, execution::ToolCode>> kept_;
   std::optional<Incident> way_;  ///< Feed motions that have met nothing so far.
   Watcher watcher_;
   double next_moment_ = 0;

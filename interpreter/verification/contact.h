@@ -84,7 +84,7 @@ struct Certificate {
   std::vector<Unverified> gaps;
   /// Bodies of the machine that are not compared, since they touch each other from the start: `gantry` and `rails`.
   std::vector<std::pair<std::string, std::string>> touching;
-  std::size_t more_contacts = 0;            ///< Contacts beyond those that are kept.
+  std::size_t more_contacts = 0;            ///< Contacts and near misses that repeat others and are not kept.
   std::optional<std::size_t> stopped_at;    ///< The line at which an error stopped the run; from 0.
   std::optional<std::size_t> ended_before;  ///< The line before which the run was to end; from 0.
 };

@@ -1,7 +1,6 @@
 #include "interpreter/verification/contact_log.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace isocnc::verification {
 
@@ -125,11 +124,11 @@ void ContactLog::close(Episode& episode) {
   const Episode closed = std::exchange(episode, Episode());
   if (!closed.is_open || (!closed.has_touched && !closed.reports_near)) return;
   if (closed.has_touched) ++count_;
-  if (contacts_.size() >= kMaxContacts) {
-    ++left_out_;
-    return;
-  }
-  contacts_.push_back(closed.contact);
+  if (kept_.keeps(cause_of(closed.contact))) contacts_.push_back(closed.contact);
+}
+
+ContactLog::ContactCause ContactLog::cause_of(const Contact& contact) {
+  return {contact.id, contact.mover, contact.whom.number, contact.described, contact.tool};
 }
 
 void ContactLog::close_all() {
@@ -143,13 +142,10 @@ std::vector<Contact> ContactLog::contacts() const {
   std::stable_sort(sorted.begin(), sorted.end(), [](const Contact& a, const Contact& b) {
     return a.time != b.time ? a.time < b.time : a.whom.number < b.whom.number;
   });
-  // One slip with a tool repeats at an obstacle.
-  using Cause = std::tuple<dialect::DiagnosticId, Mover, std::uint32_t, BodyDescription, execution::ToolCode>;
-  std::map<Cause, std::int32_t> mistakes;
+  std::map<ContactCause, std::int32_t> mistakes;
   for (Contact& contact : sorted) {
     const auto next = static_cast<std::int32_t>(mistakes.size());
-    const Cause cause(contact.id, contact.mover, contact.whom.number, contact.described, contact.tool);
-    contact.mistake = mistakes.try_emplace(cause, next).first->second;
+    contact.mistake = mistakes.try_emplace(cause_of(contact), next).first->second;
   }
   return sorted;
 }

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <map>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "interpreter/removal/kept_repeats.h"
 #include "interpreter/verification/contact.h"
 #include "interpreter/verification/encounter.h"
 
@@ -36,8 +38,8 @@ class ContactLog {
 
   /// After close_all(): sorted by time.
   std::vector<Contact> contacts() const;
-  std::size_t contact_count() const { return count_; }  ///< Without near misses, with those that are not kept.
-  std::size_t left_out() const { return left_out_; }    ///< Contacts and near misses beyond kMaxContacts.
+  std::size_t contact_count() const { return count_; }       ///< Without near misses, with those that are not kept.
+  std::size_t left_out() const { return kept_.left_out(); }  ///< Contacts and near misses that are not kept.
 
  private:
   using ContactPlace = std::pair<std::size_t, Mover>;  ///< An obstacle and what comes near it.
@@ -75,14 +77,16 @@ class ContactLog {
   void take_near(Episode& episode, const Visit& visit) const;
   void close(Episode& episode);
 
-  static constexpr std::size_t kMaxContacts = 10'000;
+  /// What one slip with a tool repeats at an obstacle.
+  using ContactCause = std::tuple<dialect::DiagnosticId, Mover, std::uint32_t, BodyDescription, execution::ToolCode>;
+  static ContactCause cause_of(const Contact& contact);
 
   std::map<ContactPlace, Episode> episodes_;
   StretchPlace at_;            ///< The present stretch.
   std::vector<Visit> visits_;  ///< Encounters on it.
   std::vector<Contact> contacts_;
+  removal::KeptRepeats<ContactCause> kept_;
   std::size_t count_ = 0;
-  std::size_t left_out_ = 0;
 };
 
 }  // namespace isocnc::verification

@@ -112,6 +112,10 @@ std::string in_words(const Certificate& certificate, Language language) {
     line += dialect::format(
         Text{"; not compared: {}, which touch at the start", "; non confrontati: {}, che all'inizio si toccano"},
         language, fmt::join(pairs, ", "));
+  if (certificate.more_contacts > 0)
+    line += dialect::format(Text{"; not listed: {} contacts and near misses that repeat others",
+                                 "; non elencati: {} contatti e passaggi ravvicinati che ne ripetono altri"},
+                            language, grouped(certificate.more_contacts, language));
   return line;
 }
 
@@ -192,6 +196,7 @@ OrderedJson to_json(const VerifiedRun& verified, Language language) {
   json["certificate"]["setup"] = certificate.scene;
   json["certificate"]["notVerified"] = not_verified(certificate, language);
   json["certificate"]["notCompared"] = not_compared(certificate, language);
+  json["certificate"]["notListed"] = certificate.more_contacts;
   return json;
 }
 

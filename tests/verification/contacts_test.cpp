@@ -204,6 +204,23 @@ std::string many_moves(std::uint64_t seed) {
   return program + "M02\n";
 }
 
+/// Not all of many near misses are kept, but none hides what comes after it.
+TEST(Contacts, ANewMistakeIsNotLostBehindManyOfAnother) {
+  Shop shop;
+  shop.box("rib", {100, -20, 0}, {140, 20, 30});
+  shop.box("clamp 1", {400, -20, 0}, {440, 20, 30});
+  std::string program = "M06 T101001\nG00 X70 Y0 Z31\n";
+  constexpr int kPasses = 10'050;
+  for (int i = 0; i < kPasses; ++i) program += i % 2 == 0 ? "G01 X170 F60000\n" : "X70\n";
+  const VerifiedRun run = shop.run(program + "G00 Z60\nX400\nZ10\nZ60\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 10'001u);
+  EXPECT_TRUE(run.contacts.front().is_near_miss());
+  EXPECT_EQ(told({run.contacts.back()}),
+            fmt::format("E152 {0}-{1} the cutter of T101001 | clamp 1 -10.0\n", kPasses + 5, kPasses + 6));
+  EXPECT_EQ(run.certificate->contacts, 1u);
+  EXPECT_EQ(run.certificate->more_contacts, 50u);
+}
+
 TEST(Contacts, AnyNumberOfThreadsFindsTheSame) {
   Shop shop(MachineKind::Head);
   shop.box("clamp 1", {100, -20, 0}, {140, 20, 30});
