@@ -146,7 +146,7 @@ class SarifRenderer final : public Renderer {
       properties["obstacle"] = obstacle.in(style_.language);
       const dialect::DiagnosticDef& def = dialect::definition(located.finding.id);
       for (std::size_t i = 0; i < std::size(def.arguments); ++i)
-        properties[std::string(def.arguments[i])] = located.finding.values[i];
+        if (!def.arguments[i].empty()) properties[std::string(def.arguments[i])] = located.finding.values[i];
     }
     for (const RunPlace& place : run_places(located, style_.language)) {
       OrderedJson in_file = artifact;
