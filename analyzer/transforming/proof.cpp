@@ -38,8 +38,13 @@ bool is_upright(const Pose& pose) { return std::abs(std::sin(pose.b * std::numbe
 class BlockComparison {
  public:
   /// `before` and `new_before` are the states before the blocks.
-  BlockComparison(const ProgramMap& map, const State& before, const State& new_before)
-      : map_(map), before_(before), new_before_(new_before), in_machine_(map.in_machine(before)) {}
+  BlockComparison(const ProgramMap& map, const State& before, const State& new_before,
+                  std::optional<double> free_height)
+      : map_(map),
+        before_(before),
+        new_before_(new_before),
+        in_machine_(map.in_machine(before)),
+        free_height_(free_height) {}
 
   std::optional<TransformObstacle> compare(const Event& old_event, const Event& new_event) const {
     if (old_event.what.index() != new_event.what.index()) return TransformObstacle::EffectDiffers;
@@ -131,7 +136,21 @@ class BlockComparison {
       if (!is_same(to[axis], new_to[axis]) && (!stays || is_given(old_move, axis, map)))
         return TransformObstacle::PlaceDiffers;
     }
+    if (free_height_ && !is_free(old_move, new_move)) return TransformObstacle::CopyStartsLow;
     return std::nullopt;
+  }
+
+  /// Whether a rapid may start elsewhere than that of the old program: high enough or straight up, and with B and C as
+  /// there at its end.
+  bool is_free(const MoveEvent& old_move, const MoveEvent& new_move) const {
+    const Pose& from = new_move.from;
+    const Pose& to = new_move.to;
+    const bool is_same_start = is_same(from.tip, in_machine_.point(old_move.from.tip)) &&
+                               is_same(from.b, old_move.from.b) && is_same(from.c, old_move.from.c);
+    const bool is_turned = !is_same(to.b, old_move.to.b) || !is_same(to.c, old_move.to.c);
+    const bool is_upward = is_same(Vec3(from.tip.x(), from.tip.y(), to.tip.z()), to.tip) && to.tip.z() > from.tip.z() &&
+                           is_same(from.b, to.b) && is_same(from.c, to.c);
+    return is_same_start || (!is_turned && (is_upward || from.tip.z() >= *free_height_ - kSamePlace));
   }
 
   /// Whether a motion gives the end of an axis of the new program, or an increment of it.
@@ -150,6 +169,7 @@ class BlockComparison {
   const State& before_;
   const State& new_before_;
   const PoseMap in_machine_;
+  const std::optional<double> free_height_;
 };
 
 }  // namespace
@@ -170,7 +190,8 @@ std::optional<TransformationRefusal> find_difference(std::string_view program, s
 
 std::optional<TransformationRefusal> find_difference(running::Runner& old_run, running::Runner& new_run,
                                                      std::size_t first_line, std::optional<std::size_t> end_line,
-                                                     const ProgramMap& map, dialect::Language language) {
+                                                     const ProgramMap& map, dialect::Language language,
+                                                     std::optional<double> free_height) {
   while (!old_run.has_ended() && (!end_line || old_run.place().line < *end_line)) {
     const std::size_t line = old_run.place().line;
     const State before = old_run.result().state;
@@ -185,7 +206,7 @@ std::optional<TransformationRefusal> find_difference(running::Runner& old_run, r
     const auto old_events = old_run.events();
     const auto new_events = new_run.events();
     if (old_events.size() != new_events.size()) return TransformationRefusal{TransformObstacle::EffectDiffers, line};
-    const BlockComparison blocks(map, before, new_before);
+    const BlockComparison blocks(map, before, new_before, free_height);
     for (std::size_t i = 0; i < old_events.size(); ++i)
       if (const auto obstacle = blocks.compare(old_events[i], new_events[i]))
         return TransformationRefusal{*obstacle, line};

@@ -20,10 +20,13 @@ std::optional<TransformationRefusal> find_difference(std::string_view program, s
                                                      dialect::Language language);
 
 /// The same for a part of a new program, which `new_run` has reached: it begins on the line `first_line` of that one,
-/// and goes on to the end of both, or to before the line `end_line` of the old program.
+/// and goes on to the end of both, or to before the line `end_line` of the old program. Where the machine does not come
+/// from its home but from another part, `free_height` is the Z (machine frame, mm) from which on its rapids may start
+/// elsewhere than those of the old program.
 std::optional<TransformationRefusal> find_difference(running::Runner& old_run, running::Runner& new_run,
                                                      std::size_t first_line, std::optional<std::size_t> end_line,
-                                                     const ProgramMap& map, dialect::Language language);
+                                                     const ProgramMap& map, dialect::Language language,
+                                                     std::optional<double> free_height = {});
 
 /// The error with which a run has ended: its code and its message in a language.
 std::string error_text(const running::RunResult& result, dialect::Language language);

@@ -44,6 +44,13 @@ static const Text& reason(TransformObstacle obstacle) {
                                      "sulla macchina simulata l'avanzamento sarebbe un altro"};
   static constexpr Text kEffectDiffers{"on the simulated machine the block would do something else",
                                        "sulla macchina simulata il blocco farebbe altro"};
+  static constexpr Text kCopyStartsLow{
+      "in the next copy this rapid would start where the copy before it ends: let the program end at its highest Z, "
+      "and "
+      "with B and C as at its start",
+      "nella copia seguente questo rapido partirebbe da dove finisce quella precedente: far finire il programma alla "
+      "sua "
+      "Z più alta, e con B e C come all'inizio"};
   static constexpr Text kJumpRepeated{"a program with an IF is not repeated: its labels would be there several times",
                                       "un programma con un IF non si ripete: le sue etichette ci sarebbero più volte"};
   static constexpr Text kNewError{"the new program would stop here: {}", "il nuovo programma si fermerebbe qui: {}"};
@@ -72,6 +79,8 @@ static const Text& reason(TransformObstacle obstacle) {
       return kFeedDiffers;
     case TransformObstacle::EffectDiffers:
       return kEffectDiffers;
+    case TransformObstacle::CopyStartsLow:
+      return kCopyStartsLow;
     case TransformObstacle::JumpRepeated:
       return kJumpRepeated;
     case TransformObstacle::NewError:

@@ -25,6 +25,7 @@ enum class TransformObstacle : std::uint8_t {
   SideDiffers,    ///< G41 and G42 would lead it beside the path on the wrong side.
   FeedDiffers,    ///< It would have another feed.
   EffectDiffers,  ///< Something else than a motion would be done.
+  CopyStartsLow,  ///< A copy would begin with a rapid below the highest place of the program, or with B or C turned.
   JumpRepeated,   ///< An IF: the labels of jumps would be there several times.
   NewError,       ///< The new program would stop there.
 };

@@ -1,5 +1,7 @@
 #include "analyzer/transforming/repetition.h"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -30,6 +32,8 @@ struct Copy {
 struct WholeRun {
   running::RunResult result;
   std::optional<std::size_t> jump;  ///< The line of the first IF.
+  /// The greatest Z to which a motion leads; machine frame, mm.
+  double height = std::numeric_limits<double>::lowest();
 };
 
 WholeRun run_whole(std::string_view text, const running::RunOptions& options) {
@@ -38,7 +42,12 @@ WholeRun run_whole(std::string_view text, const running::RunOptions& options) {
   watched.before_block = [&](const running::Block& block) {
     if (block.tree.jump != nullptr && !whole.jump) whole.jump = block.line;
   };
-  whole.result = running::run(text, watched, [](const running::Event&) {});
+  whole.result = running::run(text, watched, [&](const running::Event& event) {
+    const auto* const move = std::get_if<running::MoveEvent>(&event.what);
+    // A Z that is not given is that of home, and no height of the program.
+    const bool is_given = move != nullptr && ((move->placed >> 2 & 1u) != 0 || move->to.tip.z() != move->from.tip.z());
+    if (is_given) whole.height = std::max(whole.height, move->to.tip.z());
+  });
   return whole;
 }
 
@@ -72,9 +81,10 @@ std::vector<std::string> restored_modes(const execution::State& state, const exe
   return lines;
 }
 
-/// Runs the whole beside each copy.
+/// Runs the whole beside each copy. `height` is the greatest Z of the program.
 std::optional<TransformationRefusal> find_difference_in(const std::string& whole, const std::vector<Copy>& copies,
-                                                        std::size_t end_line, const running::RunOptions& options,
+                                                        std::size_t end_line, double height,
+                                                        const running::RunOptions& options,
                                                         dialect::Language language) {
   const running::Program program(whole);
   running::Runner run(program, options);
@@ -86,8 +96,9 @@ std::optional<TransformationRefusal> find_difference_in(const std::string& whole
     const running::Program copy(copies[i].text);
     running::Runner copy_run(copy, options);
     const bool is_last = i + 1 == copies.size();
-    if (const auto refusal = find_difference(copy_run, run, copies[i].first_line,
-                                             is_last ? std::nullopt : std::optional(end_line), same, language))
+    if (const auto refusal =
+            find_difference(copy_run, run, copies[i].first_line, is_last ? std::nullopt : std::optional(end_line), same,
+                            language, i == 0 ? std::nullopt : std::optional(height)))
       return refusal;
   }
   return std::nullopt;
@@ -132,7 +143,7 @@ std::variant<std::string, TransformationRefusal> repeated(std::string_view text,
     lines += end_line;
     whole += i + 1 < count ? body.text : std::string_view(copy.text);
   }
-  if (auto refusal = find_difference_in(whole, copies, end_line, options, language)) return *refusal;
+  if (auto refusal = find_difference_in(whole, copies, end_line, first.height, options, language)) return *refusal;
   return whole;
 }
 

@@ -146,7 +146,9 @@ TEST(TransformProperty, RandomJobsMoveAsTheyMust) {
 TEST(TransformProperty, RandomJobsAreRepeatedAtEachPlaceOfTheGrid) {
   for (const std::uint64_t seed : support::seeds(60)) {
     Random random(seed);
-    const std::string program = RandomJob(random).text(40);
+    std::string program = RandomJob(random).text(40);
+    // To the next part the machine goes at the height at which the program ends.
+    program.insert(program.rfind("M05"), "G00 Z500 B0 C0\n");
     const Transformation how{.movement = Movement::Repeat, .place = {120.5, -80, 0}, .columns = 3, .rows = 2};
     const std::string repeated = made(program, how);
     SCOPED_TRACE(testing::Message() << "seed " << seed << "\n" << repeated);

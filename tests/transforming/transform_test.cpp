@@ -201,8 +201,31 @@ TEST(Transform, DoesNotRepeatWhatEndsElsewhereThanItBegins) {
   // The second copy would begin with B where the first one has left it.
   const auto result = transformed("M06 T101001\nG00 X1 Y2 Z0\nG49\nG01 X3 F100\nB10\nG48\nM02\n", kTwice);
   ASSERT_TRUE(std::holds_alternative<TransformationRefusal>(result)) << std::get<std::string>(result);
-  EXPECT_EQ(std::get<TransformationRefusal>(result).obstacle, TransformObstacle::StartUnknown);
-  EXPECT_EQ(std::get<TransformationRefusal>(result).line, 3U);
+  EXPECT_EQ(std::get<TransformationRefusal>(result).obstacle, TransformObstacle::CopyStartsLow);
+  EXPECT_EQ(std::get<TransformationRefusal>(result).line, 1U);
+}
+
+/// The first rapid of a copy comes from where the copy before it ends, not from home.
+TEST(Transform, RepeatsOnlyWhatEndsAtItsHighestZ) {
+  const auto repeated = [](const std::string& first, const std::string& last) {
+    return transformed(
+        "M06 T101001\nG92 X100 Y50 Z-10\n" + first + "\nG00 X5 Y5\nZ5\nG01 Z-5 F500\nX30 Y20\n" + last + "\nM02\n",
+        kTwice);
+  };
+  for (const auto& [first, last] : {std::pair("G00 X20 Y0", "G01 X31"),
+                                    {"G00 X20 Y0", "G00 Z2"},
+                                    {"G00 X20 Y0 Z30", "G00 Z5"},
+                                    {"G00 X20 Y0 Z30", "G00 Z30 B5"}}) {
+    const auto result = repeated(first, last);
+    ASSERT_TRUE(std::holds_alternative<TransformationRefusal>(result)) << std::get<std::string>(result);
+    EXPECT_EQ(std::get<TransformationRefusal>(result).obstacle, TransformObstacle::CopyStartsLow) << first << last;
+    EXPECT_EQ(std::get<TransformationRefusal>(result).line, 2U);
+  }
+  for (const auto& [first, last] : {std::pair("G00 X20 Y0", "G00 Z5"),
+                                    {"G00 Z30", "G00 Z20"},
+                                    {"G00 X20 Y0 Z30 B0", "G00 Z30 B5"},
+                                    {"G00 X20 Y0 Z30", "G00 X0 Z30"}})
+    EXPECT_TRUE(std::holds_alternative<std::string>(repeated(first, last))) << first << last;
 }
 
 TEST(Transform, ScalesFeeds) {
