@@ -84,13 +84,14 @@ std::string TranslationRun::letters_of(const CurrentBlock& current) const {
     if (role == Reference) letters += tenths == 300 ? "XYZP" : "XYZ";
     if (role == SetPosition || role == LocalShift) letters += "XYZ";
     if (role == Rotation) letters += "XYZR";
+    if (role == FurtherZero || (role == ZeroPoint && is_fanuc)) letters += 'P';
+    if (role == CurvedPlane || role == CurvedPlaneOff) letters += "XYZABC";
     if (role == Tilt || role == Scale || role == Mirror || role == MirrorOff) letters += "XYZIJKRPQ";
     if (role == Compensation) letters += 'D';
     if (role == Length || role == LengthOff) letters += 'H';
     if (role == LengthGiven) letters += "HXYZ";
     if (role == Ignored || role == Continuous || role == PolarOff) letters += "PQRIJKXYZ";
     if (role == SurfaceSpeed) letters += 'D';
-    if (role == ZeroPoint && is_fanuc) letters += "";
   }
   for (const int m : current.ms)
     if (m == 98) letters += "PL";

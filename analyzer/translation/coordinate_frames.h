@@ -55,6 +55,8 @@ class CoordinateFrames {
   /// The zero point, in machine coordinates; nothing where it has not been given.
   std::optional<geometry::Vec3> zero(int name) const;
   void set_zero(int name, const geometry::Vec3& at) { zeros_[name] = at; }
+  void forget_zero(int name) { zeros_.erase(name); }
+  void forget_zeros() { zeros_.clear(); }
   bool has_zero() const { return zeros_.contains(selected); }
   /// Where the frame lies before it is turned, in machine coordinates. The zero point must be known.
   geometry::Vec3 origin() const { return *zero(selected) + local + shift; }

@@ -23,10 +23,13 @@ constexpr RoleRow kRoles[] = {
     {50, 50, 10, Ignored, kF},  // G05 P10000, G05.1 Q1: high-speed machining.
     {51, 51, 10, Ignored, kF},
     {70, 70, 10, Diameter, kL},
+    {71, 71, 10, CurvedPlane, kF},
     {80, 80, 10, Radius, kL},
     {80, 80, 10, Ignored, kF},  // G08 P1: look-ahead.
     {90, 90, 10, ExactStopHere, kF},
     {100, 100, 10, Data, kAll},
+    {121, 121, 10, CurvedPlane, kF},
+    {131, 131, 10, CurvedPlaneOff, kF},
     {150, 150, 10, PolarOff, kF},
     {160, 160, 10, Polar, kF},
     {170, 190, 10, Plane, kAll},
@@ -48,6 +51,7 @@ constexpr RoleRow kRoles[] = {
     {520, 520, 10, LocalShift, kF | kL},
     {530, 530, 10, MachineCoordinates, kAll},
     {540, 590, 10, ZeroPoint, kAll},
+    {541, 542, 1, FurtherZero, kF},
     {591, 593, 1, ZeroPoint, kL},
     {610, 610, 10, ExactStop, kAll},
     {611, 611, 10, ExactStop, kL},
@@ -79,6 +83,12 @@ constexpr RoleRow kRoles[] = {
     {970, 970, 10, TurnsPerMinute, kF | kL},
     {980, 980, 10, RetractInitial, kF | kL},
     {990, 990, 10, RetractR, kF | kL},
+    {1070, 1070, 10, CurvedPlane, kF},
+    {1100, 1110, 10, FurtherZero, kF},
+    {1120, 1120, 10, CurvedPlane, kF},
+    {1130, 1130, 10, CurvedPlaneOff, kF},
+    {1140, 1290, 10, FurtherZero, kF},
+    {1540, 1540, 10, FurtherZero, kF},
 };
 
 }  // namespace

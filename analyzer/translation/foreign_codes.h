@@ -36,6 +36,7 @@ enum class ForeignRole : std::uint8_t {
   LengthOff,
   LengthGiven,
   ZeroPoint,
+  FurtherZero,  ///< A zero point beyond G59, which no map can give.
   LocalShift,
   SetPosition,
   ClearShift,
@@ -53,6 +54,8 @@ enum class ForeignRole : std::uint8_t {
   Mirror,
   MirrorOff,
   Tilt,
+  CurvedPlane,  ///< X and Y on a face or a cylinder that turns.
+  CurvedPlaneOff,
   Diameter,
   Radius,
   Ignored,  ///< Says nothing that this dialect does not do anyway.

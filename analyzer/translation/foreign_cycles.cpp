@@ -66,12 +66,19 @@ bool TranslationRun::read_cycle(CurrentBlock& current) {
     return false;
   };
   const std::size_t at = current.words.front().at;
-  if (const ForeignWord* const r = current.find('R'))
+  if (const ForeignWord* const r = current.find('R')) {
     cycle_.r = length_of(*r) + (now_.incremental ? (is_fanuc ? cycle_.initial : level) : 0);
-  if (!cycle_.r) return refused(Untranslatable::CycleIncomplete, at, {"R"});
-  if (const ForeignWord* const z = current.find(kCycleAxes[plane.normal]))
+    cycle_.r_is_increment = now_.incremental;
+  }
+  // LinuxCNC takes what holds from above as increments under G91, whatever it was given under.
+  const auto holds = [&](bool is_increment) { return is_fanuc || is_increment == now_.incremental; };
+  if (!cycle_.r || !holds(cycle_.r_is_increment)) return refused(Untranslatable::CycleIncomplete, at, {"R"});
+  if (const ForeignWord* const z = current.find(kCycleAxes[plane.normal])) {
     cycle_.bottom = length_of(*z) + (now_.incremental ? *cycle_.r : 0);
-  if (!cycle_.bottom) return refused(Untranslatable::CycleIncomplete, at, {std::string(1, kCycleAxes[plane.normal])});
+    cycle_.bottom_is_increment = now_.incremental;
+  }
+  if (!cycle_.bottom || !holds(cycle_.bottom_is_increment))
+    return refused(Untranslatable::CycleIncomplete, at, {std::string(1, kCycleAxes[plane.normal])});
   if (const ForeignWord* const q = current.find('Q')) cycle_.peck = std::abs(length_of(*q));
   if (const ForeignWord* const p = current.find('P')) cycle_.dwell = is_fanuc ? p->value / 1000 : p->value;
   if (*cycle_.bottom > *cycle_.r) return refused(Untranslatable::CycleDepth, at, {});

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -17,6 +18,12 @@ static std::string zero_text(int name) {
   return name % 10 == 0 ? fmt::format("G{}", name / 10) : fmt::format("G{}.{}", name / 10, name % 10);
 }
 
+/// The zero point that G10 calls by a number, in tenths: 1 is G54, 7 is G59.1. None for 0, the one in force.
+static std::optional<int> zero_by_number(int number) {
+  if (number == 0) return std::nullopt;
+  return number <= 6 ? 530 + 10 * number : 584 + number;
+}
+
 /// Changes the coordinate system; the tool stays, and its coordinates are others.
 template <class Change>
 void TranslationRun::change_frame(Change&& change) {
@@ -27,7 +34,10 @@ void TranslationRun::change_frame(Change&& change) {
 
 void TranslationRun::add_frames(CurrentBlock& current) {
   for (const auto& [tenths, role] : current.gs) {
-    if (role == ZeroPoint) select_zero(current, tenths);
+    if (is_further_zero(current, role))
+      select_further_zero(current, tenths);
+    else if (role == ZeroPoint)
+      select_zero(current, tenths);
     if (role == LocalShift) set_local_shift(current);
     if (role == SetPosition) set_position(current);
     if (role == ClearShift || role == SuspendShift || role == RestoreShift) {
@@ -48,7 +58,12 @@ void TranslationRun::add_frames(CurrentBlock& current) {
 void TranslationRun::apply_refused_frames(CurrentBlock& current) {
   static constexpr ForeignRole kShifts[] = {LocalShift, SetPosition, ClearShift, SuspendShift, RestoreShift, Data};
   for (const auto& [tenths, role] : current.gs) {
-    if (role == ZeroPoint) select_zero(current, tenths);
+    if (is_further_zero(current, role))
+      select_further_zero(current, tenths);
+    else if (role == ZeroPoint)
+      select_zero(current, tenths);
+    if (role == Data) forget_zero(current);
+    if (tenths == 281 || tenths == 301) lost_references_.insert(tenths - 1);
     if (role == Rotation) suspended_by_.insert(Rotation);
     if (role == RotationOff) end_rotation();
     if (role == Compensation || role == CompensationOff) compensation_ = tenths / 10;
@@ -75,10 +90,43 @@ void TranslationRun::select_zero(CurrentBlock& current, int name) {
   said_once_.insert(Untranslatable::ZeroPointMissing);
 }
 
+/// G54.1 P3 and its like; Fanuc has G54 P3 for it.
+bool TranslationRun::is_further_zero(const CurrentBlock& current, ForeignRole role) const {
+  if (role == FurtherZero) return true;
+  const bool calls = std::find(current.ms.begin(), current.ms.end(), 98) != current.ms.end();
+  return role == ZeroPoint && setup_.control == SourceControl::Fanuc && current.find('P') != nullptr && !calls &&
+         !current.has(Dwell) && !current.has(Cycle) && !holds_cycle();
+}
+
+/// No motion is written until another zero point is selected.
+void TranslationRun::select_further_zero(CurrentBlock& current, int name) {
+  change_frame([&] { frames_.selected = -name; });
+  frame_is_wrong_ = false;
+  said_once_.insert(Untranslatable::ZeroPointMissing);
+  for (const ForeignWord& word : current.words)
+    if (word.letter == 'G' && word.tenths() == name) leave_out(current, Untranslatable::UnknownG, word);
+  if (const ForeignWord* const p = current.find('P')) current.remark += " P" + p->digits;
+}
+
+/// A G10 that stays a comment: where its zero point lies is not known from there on.
+void TranslationRun::forget_zero(const CurrentBlock& current) {
+  const ForeignWord* const l = current.find('L');
+  const ForeignWord* const p = current.find('P');
+  const bool is_other_table = l != nullptr && !l->is_formula && l->value != 2 && l->value != 20;
+  if (is_other_table) return;
+  const bool is_known = p != nullptr && !p->is_formula && p->value >= 0 && p->value <= 9;
+  if (!is_known) return frames_.forget_zeros();
+  frames_.forget_zero(zero_by_number(static_cast<int>(p->value)).value_or(frames_.selected));
+}
+
+/// On LinuxCNC it is the shift of G92 under another name.
 void TranslationRun::set_local_shift(const CurrentBlock& current) {
+  const bool is_linuxcnc = setup_.control == SourceControl::LinuxCnc;
+  if (is_linuxcnc) frame_is_wrong_ = false;
   change_frame([&] {
+    Vec3& shift = is_linuxcnc ? frames_.shift : frames_.local;
     for (int axis = 0; axis < 3; ++axis)
-      if (const ForeignWord* const word = current.find(kFrameAxes[axis])) frames_.local[axis] = length_of(*word);
+      if (const ForeignWord* const word = current.find(kFrameAxes[axis])) shift[axis] = length_of(*word);
   });
 }
 
@@ -112,11 +160,12 @@ void TranslationRun::set_data(CurrentBlock& current) {
   const bool by_place = l != nullptr && l->value == 20;
   const bool is_zero = l != nullptr && (l->value == 2 || (by_place && !is_fanuc));
   const int last = setup_.control == SourceControl::LinuxCnc ? 9 : 6;
-  const int name = number == 0 && !is_fanuc ? frames_.selected : number <= 6 ? 530 + 10 * number : 584 + number;
+  const int name = zero_by_number(std::max(number, 0)).value_or(frames_.selected);
   const auto give_up = [&](BlockRefusal refusal) {
     report(current, std::move(refusal));
     keep_as_comment(current);
     frame_is_wrong_ = frame_is_wrong_ || (is_zero && (name == frames_.selected || number == 0));
+    if (is_zero) forget_zero(current);
   };
   const ForeignWord& g10 = *current.find('G');
   const bool is_known_form =
@@ -207,7 +256,8 @@ void TranslationRun::go_to_reference(CurrentBlock& current, int name) {
   const ForeignWord* const p = current.find('P');
   const auto found = setup_.map.references.find(name);
   const bool is_further = p != nullptr && p->value != 2;
-  const bool is_given = !is_further && (found != setup_.map.references.end() || name == 280);
+  const bool is_given =
+      !is_further && !lost_references_.contains(name) && (found != setup_.map.references.end() || name == 280);
   if (!is_given) {
     report(current, {Untranslatable::ReferenceMissing, current.find('G')->at, {fmt::format("G{}", name / 10)}});
     keep_as_comment(current);

@@ -45,16 +45,18 @@ void TranslationRun::apply_suspensions(CurrentBlock& current) {
   struct SuspensionRow {
     ForeignRole on, off;
     Untranslatable reason;
+    std::string_view parameters = {};  ///< Letters that belong to the G.
   };
   static constexpr SuspensionRow kRows[] = {
       {Polar, PolarOff, Untranslatable::PolarCoordinates},
-      {Scale, ScaleOff, Untranslatable::ScaledOrMirrored},
-      {Mirror, MirrorOff, Untranslatable::ScaledOrMirrored},
-      {Tilt, RotationOff, Untranslatable::TiltedPlane},
+      {Scale, ScaleOff, Untranslatable::ScaledOrMirrored, "XYZIJKRPQ"},
+      {Mirror, MirrorOff, Untranslatable::ScaledOrMirrored, "XYZIJKRPQ"},
+      {Tilt, RotationOff, Untranslatable::TiltedPlane, "XYZIJKRPQ"},
+      {CurvedPlane, CurvedPlaneOff, Untranslatable::UnknownG, "ABC"},
       {Diameter, Radius, Untranslatable::DiameterMode},
       {PerTurn, PerMinute, Untranslatable::FeedPerTurn},
-      {SurfaceSpeed, TurnsPerMinute, Untranslatable::SurfaceSpeed},
-      {LengthGiven, LengthOff, Untranslatable::LengthGiven},
+      {SurfaceSpeed, TurnsPerMinute, Untranslatable::SurfaceSpeed, "D"},
+      {LengthGiven, LengthOff, Untranslatable::LengthGiven, "HXYZ"},
   };
   std::size_t place = 0;
   for (const ForeignWord& word : current.words) {
@@ -66,6 +68,9 @@ void TranslationRun::apply_suspensions(CurrentBlock& current) {
       if (role != row.on) continue;
       suspended_by_.insert(row.on);
       leave_out(current, row.reason, word);
+      for (const ForeignWord& parameter : current.words)
+        if (row.parameters.find(parameter.letter) != std::string_view::npos)
+          current.remark += fmt::format(" {}{}", parameter.letter, parameter.digits);
     }
   }
 }
@@ -81,14 +86,24 @@ void TranslationRun::apply_offsets(CurrentBlock& current) {
   };
   const std::vector<std::string> mounted{fmt::format("T{}", tool_)};
   if (takes_length) {
-    if (is_of_other(h)) leave_out(current, Untranslatable::ToolOffsetOfOther, *h, mounted);
+    if (is_of_other(h)) {
+      leave_out(current, Untranslatable::ToolOffsetOfOther, *h, mounted);
+      suspended_by_.insert(LengthGiven);
+    } else if (h != nullptr) {
+      suspended_by_.erase(LengthGiven);
+    }
     length_active_ = true;
     length_off_ = false;
   } else if (ends_length) {
+    suspended_by_.erase(LengthGiven);
     length_off_ = length_off_ || length_active_;
     length_active_ = false;
   }
-  if (current.has(Compensation) && is_of_other(d)) leave_out(current, Untranslatable::ToolOffsetOfOther, *d, mounted);
+  if (current.has(Compensation) || current.has(CompensationOff)) suspended_by_.erase(Compensation);
+  if (current.has(Compensation) && is_of_other(d)) {
+    leave_out(current, Untranslatable::ToolOffsetOfOther, *d, mounted);
+    suspended_by_.insert(Compensation);
+  }
   for (const auto& [tenths, role] : current.gs)
     if (role == Compensation || role == CompensationOff) compensation_ = tenths / 10;
 }

@@ -47,7 +47,9 @@ struct BlockRefusal {
 
 /// A drilling cycle in force; levels along the plane's normal in mm, in the program's coordinates.
 struct CycleInForce {
-  int g = 0;  ///< 81 for G81; 0: none in force.
+  int g = 0;                         ///< 81 for G81; 0: none in force.
+  bool r_is_increment = false;       ///< Given under G91.
+  bool bottom_is_increment = false;  ///< Likewise.
   double initial = 0;
   std::optional<double> r;
   std::optional<double> bottom;
@@ -132,6 +134,9 @@ class TranslationRun {
   void apply_refused_frames(CurrentBlock& current);
   void end_rotation();
   void select_zero(CurrentBlock& current, int name);
+  bool is_further_zero(const CurrentBlock& current, ForeignRole role) const;
+  void select_further_zero(CurrentBlock& current, int name);
+  void forget_zero(const CurrentBlock& current);
   void set_position(CurrentBlock& current);
   void set_local_shift(const CurrentBlock& current);
   void set_data(CurrentBlock& current);
@@ -204,7 +209,8 @@ class TranslationRun {
   geometry::Vec3 kept_shift_ = geometry::Vec3::Zero();  // Suspended by G92.2.
   CoordinateFrames frames_;
   KnownPlace place_;
-  std::array<bool, 3> lost_{};  // Axes that a block left as a comment would have moved.
+  std::set<int> lost_references_;  // G28 and G30, in tenths, that the program has put elsewhere.
+  std::array<bool, 3> lost_{};     // Axes that a block left as a comment would have moved.
   std::set<ForeignRole> suspended_by_;
   bool tool_is_wrong_ = false;
   bool frame_is_wrong_ = false;

@@ -134,6 +134,66 @@ TEST(Translation, KeepsWordsThatMeanTheSame) {
     EXPECT_EQ(translated(original), expected) << original;
 }
 
+/// The code of a translation, without its comments.
+std::string code_of(std::string_view text, SourceControl control) {
+  const std::string all = translated(text, control);
+  std::string code;
+  for (std::size_t begin = 0; begin < all.size();) {
+    const std::size_t end = all.find('\n', begin) + 1;
+    if (all[begin] != ';') code += all.substr(begin, end - begin);
+    begin = end;
+  }
+  return code;
+}
+
+/// What may stand elsewhere than the map says stays a comment, with all that follows, until it is known again.
+TEST(Translation, WritesNoMotionFromAPlaceThatMayBeAnother) {
+  struct Case {
+    SourceControl control;
+    std::string_view original, expected;
+  };
+  constexpr auto kFanuc = SourceControl::Fanuc;
+  constexpr auto kLinuxCnc = SourceControl::LinuxCnc;
+  for (const auto& [control, original, expected] : std::vector<Case>{
+           // Zero points that no map has, and the way back.
+           {kFanuc, "G54.1 P3\nG0 X1. Y0. Z0.\nG1 X5. F1.\nG54\nG0 X2. Y0. Z0.", "G00 X2. Y0. Z0.\n"},
+           {kFanuc, "G54 P3\nG0 X1. Y0. Z0.\nG1 X5. F1.", ""},
+           {kFanuc, "G110\nG0 X1. Y0. Z0.\nG1 X5. F1.", ""},
+           {kFanuc, "G54.2 P1\nG0 X1. Y0. Z0.\nG1 X5. F1.", ""},
+           // X and Y on a face or a cylinder.
+           {kFanuc, "G12.1\nG1 X5. F1.\nG13.1\nG0 X2. Y0. Z0.", "G00 X2. Y0. Z0.\n"},
+           {kFanuc, "G7.1 C40.\nG1 X5. F1.", ""},
+           {kFanuc, "G112\nG1 X5. F1.", ""},
+           // A zero point that is given in a way that cannot be said.
+           {kLinuxCnc, "G10 L2 P2 X5 R30\nG55\nG0 X1 Y0 Z0\nG1 X5 F1\nG54 G0 X1 Y1 Z0", "G00 X1 Y1 Z0\n"},
+           {kLinuxCnc, "G10 L2 P2 X#1\nG55\nG0 X1 Y0 Z0\nG1 X5 F1", ""},
+           {kLinuxCnc, "G10 L2 P#2 X1\nG55\nG0 X1 Y0 Z0\nG1 X5 F1", ""},
+           {kLinuxCnc, "G10 L20 P2 X#1\nG55 G0 X1 Y0 Z0", ""},
+           {kLinuxCnc, "G10 L1 P2 Z#1\nG54 G0 X1 Y0 Z0", "G00 X1 Y0 Z0\n"},
+           // Offsets of another tool.
+           {kLinuxCnc, "T1 M6\nG43 H2\nG0 Z20\nG43 H1\nG0 Z30", "M06 T101001\nG00 Z30\n"},
+           {kFanuc, "T1 M6\nH2\nG0 Z20.\nG49\nG0 Z30.", "M06 T101001\n"},
+           {kFanuc, "T1 M6\nG1 X1. F1.\nG41 D0\nG1 X5. Y2.\nX9.\nG40\nG0 X0. Y0.",
+            "M06 T101001\nG01 X1. F1.\nG00 X0. Y0.\n"},
+           // A reference point that the program has put elsewhere.
+           {kLinuxCnc, "G28.1\nG28\nG0 X1 Y1 Z1", "G00 X1 Y1 Z1\n"},
+           // G52 is G92 there.
+           {kLinuxCnc, "G92 X1 Y1\nG52 X5\nG0 X0", "G92 X5 Y-1 Z0\nG00 X0\n"},
+           {kLinuxCnc, "G92 X1 Y1\nG52 X0 Y0\nG0 X7", "G00 X7\n"},
+           // What holds from G90 would be increments.
+           {kLinuxCnc, "F1\nG98 G81 X1 Z-5 R2\nG91 X5\nG90 G80\nG0 X1 Y1 Z1",
+            "Z2\nX1\nG01 Z-5 F1\nG00 Z2\nG90\nG00 X1 Y1 Z1\n"},
+       })
+    EXPECT_EQ(code_of(original, control), expected) << original;
+}
+
+TEST(Translation, KeepsTheWordsOfWhatStaysAComment) {
+  EXPECT_EQ(translated("G51 X0. Y0. P2000", SourceControl::Fanuc), "; NOT TRANSLATED: G51 X0. Y0. P2000\n");
+  EXPECT_EQ(translated("G68.2 X0. Y1. Z2. I0. J45. K0.", SourceControl::Fanuc),
+            "; NOT TRANSLATED: G68.2 X0. Y1. Z2. I0. J45. K0.\n");
+  EXPECT_EQ(translated("G96 D100 S10", SourceControl::LinuxCnc), "; NOT TRANSLATED: G96 D100 S10\n");
+}
+
 TEST(Translation, TakesFanucWordsAsFanucDoes) {
   struct Case {
     std::string_view original, expected;
