@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/comparison/action_path.h"
 #include "interpreter/dialect/format.h"
 
 namespace isocnc::comparison {
@@ -171,7 +172,9 @@ void ChangeList::close_shift() {
   change.new_cause = line_of(runs_.b, b(open.actions.b_begin).frame);
 }
 
-void ChangeList::compare_feeds(std::size_t i, std::size_t k) {
+void ChangeList::compare_feeds(std::size_t i, std::size_t k) { compare_feeds(i, k, {}, {}); }
+
+void ChangeList::compare_feeds(std::size_t i, std::size_t k, const OutsideParts& of_a, const OutsideParts& of_b) {
   const MachineAction& left = a(i);
   const MachineAction& right = b(k);
   if (!left.is_motion() || !right.is_motion()) return;
@@ -180,7 +183,8 @@ void ChangeList::compare_feeds(std::size_t i, std::size_t k) {
     if (!left.is_rapid) close_feed();
     return;
   }
-  follow_value(feed_, ChangeKind::Feed, {{i, i + 1, k, k + 1}, value_of(runs_.a, left), value_of(runs_.b, right)});
+  follow_value(feed_, ChangeKind::Feed,
+               {{i, i + 1, k, k + 1}, value_of(runs_.a, left), value_of(runs_.b, right), of_a, of_b});
 }
 
 void ChangeList::compare_sides(std::size_t i, std::size_t k) {
@@ -200,6 +204,8 @@ void ChangeList::follow_value(std::optional<OpenValue>& open, ChangeKind kind, O
   }
   open->actions.a_end = next.actions.a_end;
   open->actions.b_end = next.actions.b_end;
+  open->of_a.last = next.of_a.last;
+  open->of_b.last = next.of_b.last;
 }
 
 void ChangeList::compare_feeds_along(const AlignedPiece& piece) {
@@ -207,9 +213,27 @@ void ChangeList::compare_feeds_along(const AlignedPiece& piece) {
     overlaps_.clear();
     const auto next =
         same_step(runs_, place, piece.shift, [&](std::size_t i, std::size_t k) { overlaps_.emplace_back(i, k); });
-    for (const auto& [i, k] : overlaps_) {
-      compare_feeds(i, k);
+    double from = 0;
+    double a_from = 0;  // Where the motions of this overlap begin, along the path of the step.
+    double b_from = 0;
+    for (std::size_t n = 0; n < overlaps_.size(); ++n) {
+      const auto& [i, k] = overlaps_[n];
+      const double a_length = ActionPath(runs_.a, a(i)).length();
+      const double b_length = ActionPath(runs_.b, b(k)).length();
+      const double until = std::min(a_from + a_length, b_from + b_length);
+      const auto outside = [&](double begin, double length) {
+        return length > 0 ? OutsideParts{std::clamp((from - begin) / length, 0.0, 1.0),
+                                         std::clamp((begin + length - until) / length, 0.0, 1.0)}
+                          : OutsideParts{};
+      };
+      const bool is_whole = overlaps_.size() == 1;
+      compare_feeds(i, k, is_whole ? OutsideParts{} : outside(a_from, a_length),
+                    is_whole ? OutsideParts{} : outside(b_from, b_length));
       compare_sides(i, k);
+      from = until;
+      if (n + 1 == overlaps_.size()) break;
+      if (overlaps_[n + 1].first != i) a_from += a_length;
+      if (overlaps_[n + 1].second != k) b_from += b_length;
     }
     place = next.value_or(PlaceInBoth{place.a + 1, place.b + 1});
   }
@@ -228,6 +252,11 @@ void ChangeList::close(std::optional<OpenValue>& open, ChangeKind kind) {
   if (!open) return;
   OpenValue closed = std::move(*std::exchange(open, std::nullopt));
   BehaviorChange& change = add(kind, closed.actions);
+  const auto outside = [](const RecordedRun& run, std::size_t begin, std::size_t end, const OutsideParts& parts) {
+    return parts.first * seconds_of(run, begin, begin + 1) + parts.last * seconds_of(run, end - 1, end);
+  };
+  change.seconds += outside(runs_.a, closed.actions.a_begin, closed.actions.a_end, closed.of_a) -
+                    outside(runs_.b, closed.actions.b_begin, closed.actions.b_end, closed.of_b);
   change.old_value = std::move(closed.old_value);
   change.new_value = std::move(closed.new_value);
 }
@@ -325,6 +354,8 @@ void ChangeList::name_turned_frames() {
     const ActionFrame& new_frame = runs_.b.frames[b(at.b_begin).frame];
     if (old_frame.frame.axes.isApprox(new_frame.frame.axes)) continue;
     const auto [first, is_new] = known.emplace(std::pair(a(at.a_begin).frame, b(at.b_begin).frame), i);
+    for (std::size_t m = at.a_begin, n = at.b_begin; m < at.a_end; ++m, ++n)
+      if (a(m).is_motion()) change.end_distance = std::max(change.end_distance, (b(n).to.tip - a(m).to.tip).norm());
     if (is_new) {
       change.kind = ChangeKind::Frame;
       change.shift.reset();
@@ -337,6 +368,7 @@ void ChangeList::name_turned_frames() {
     ActionRanges& all = places_[first->second];
     all = {std::min(all.a_begin, at.a_begin), std::max(all.a_end, at.a_end), std::min(all.b_begin, at.b_begin),
            std::max(all.b_end, at.b_end)};
+    whole.end_distance = std::max(whole.end_distance, change.end_distance);
     whole.distance =
         whole.distance && change.distance ? std::optional(std::max(*whole.distance, *change.distance)) : std::nullopt;
   }

@@ -64,11 +64,19 @@ class ChangeList {
     ActionRanges actions;
     geometry::Vec3 shift = geometry::Vec3::Zero();
   };
+  /// How much of the first and the last motion of a value is outside of it, as parts of their lengths: lines that one
+  /// run has in pieces may change within a line of the other one.
+  struct OutsideParts {
+    double first = 0;
+    double last = 0;
+  };
   /// Another value that goes on for a while.
   struct OpenValue {
     ActionRanges actions;
     std::string old_value;
     std::string new_value;
+    OutsideParts of_a = {};
+    OutsideParts of_b = {};
   };
 
   const MachineAction& a(std::size_t i) const { return runs_.a.actions[i]; }
@@ -76,6 +84,7 @@ class ChangeList {
   void close_shift();
   void close_feed() { close(feed_, ChangeKind::Feed); }
   void close_side() { close(side_, ChangeKind::Function); }
+  void compare_feeds(std::size_t i, std::size_t k, const OutsideParts& of_a, const OutsideParts& of_b);
   void close(std::optional<OpenValue>& open, ChangeKind kind);
   void follow_value(std::optional<OpenValue>& open, ChangeKind kind, OpenValue next);
   void name_turned_frames();

@@ -49,7 +49,7 @@ struct BehaviorChange {
   /// the same path the other way around. None where only B and C differ, or where that was not computed. Of what the
   /// machine does elsewhere on the same path: the length of `later`.
   std::optional<double> distance;
-  double end_distance = 0;              ///< Moved: by how much a motion ends elsewhere at most, mm.
+  double end_distance = 0;              ///< Moved and Frame: by how much a motion ends elsewhere at most, mm.
   double turned = 0;                    ///< Moved: by how much B or C end elsewhere at most, degrees.
   std::optional<geometry::Vec3> shift;  ///< From old to new, mm, if all is moved by the same.
   double later = 0;    ///< Function, Dwell, Speed, Tool: how much farther on the way the new program does the same, mm.

@@ -186,10 +186,11 @@ std::string path_in_words(const BehaviorChange& change, Language language) {
 std::string frame_in_words(const BehaviorChange& change, Language language) {
   if (!change.shift) {
     const std::size_t line = change.new_cause.value_or(change.old_cause.value_or(0)) + 1;
+    const std::string farthest = change.distance ? shown_distance(std::max(*change.distance, change.end_distance)) : "";
     if (!change.new_cause)
-      return change.distance ? dialect::format(kFrameGoneTurned, language, shown_distance(*change.distance), line)
+      return change.distance ? dialect::format(kFrameGoneTurned, language, farthest, line)
                              : dialect::format(kFrameGoneTurnedFar, language, line);
-    return change.distance ? dialect::format(kFrameTurned, language, shown_distance(*change.distance), line)
+    return change.distance ? dialect::format(kFrameTurned, language, farthest, line)
                            : dialect::format(kFrameTurnedFar, language, line);
   }
   const std::string shift = shown_shift(*change.shift);

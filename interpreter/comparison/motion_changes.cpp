@@ -244,19 +244,23 @@ class MotionNamer {
     return common;
   }
 
-  std::optional<double> distance(const ActionRanges& at, const Vec3& shift) const {
-    const double deviation = options_.tolerance / 8;
+  /// `fineness` divides how far the result may be off.
+  std::optional<double> distance(const ActionRanges& at, const Vec3& shift, double fineness) const {
+    const double deviation = options_.tolerance / 8 / fineness;
     std::vector<Vec3> old_chain =
         chain_of(runs_.a, std::span(runs_.a.actions).subspan(at.a_begin, at.a_end - at.a_begin), deviation);
     for (Vec3& point : old_chain) point += shift;
     return distance_of(
         old_chain, chain_of(runs_.b, std::span(runs_.b.actions).subspan(at.b_begin, at.b_end - at.b_begin), deviation),
-        options_.tolerance / 4, runs_.budget == nullptr ? nullptr : &runs_.budget->distances);
+        options_.tolerance / 4 / fineness, runs_.budget == nullptr ? nullptr : &runs_.budget->distances);
   }
 
   /// The distance where only B and C differ is none.
   std::optional<double> shown_distance(const ActionRanges& at, const Vec3& shift) const {
-    const std::optional<double> mm = distance(at, shift);
+    std::optional<double> mm = distance(at, shift, 1);
+    // What differs by little more than the tolerance must not be shown as less.
+    constexpr double kFine = 32;
+    if (mm && *mm > options_.tolerance / 2 && *mm < options_.tolerance * 2) mm = distance(at, shift, kFine);
     return mm && *mm <= options_.tolerance / 2 ? std::nullopt : mm;
   }
 

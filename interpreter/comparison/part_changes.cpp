@@ -233,21 +233,58 @@ class PartNamer {
   }
 
   /// The actions of a range in b that are those of a in another order, by what `is_same` says; none if they are not.
+  /// One that is the same in its own place stays there.
   template <class IsSame>
   std::vector<std::size_t> permuted(const ActionRanges& at, const IsSame& is_same) const {
     constexpr std::size_t kMaxPermuted = 64;
     const std::size_t count = at.a_end - at.a_begin;
     if (count < 2 || count > kMaxPermuted || at.b_end - at.b_begin != count) return {};
     std::vector<bool> is_used(count);
-    std::vector<std::size_t> order;
-    for (std::size_t i = at.a_begin; i < at.a_end; ++i) {
+    std::vector<std::size_t> order(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      is_used[i] = is_same(a(at.a_begin + i), b(at.b_begin + i));
+      order[i] = at.b_begin + i;
+    }
+    const std::vector<bool> stays = is_used;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (stays[i]) continue;
       std::size_t k = 0;
-      while (k < count && (is_used[k] || !is_same(a(i), b(at.b_begin + k)))) ++k;
+      while (k < count && (is_used[k] || !is_same(a(at.a_begin + i), b(at.b_begin + k)))) ++k;
       if (k == count) return {};
       is_used[k] = true;
-      order.push_back(at.b_begin + k);
+      order[i] = at.b_begin + k;
     }
     return order;
+  }
+
+  /// Whether all motions of a part that end elsewhere do so by one vector along one axis of the frame in force: a
+  /// coordinate has changed.
+  bool is_one_coordinate(const ActionRanges& at) const {
+    std::optional<Vec3> common;
+    for (std::size_t i = at.a_begin, k = at.b_begin; i < at.a_end; ++i, ++k) {
+      const Vec3 moved = b(k).to.tip - a(i).to.tip;
+      if (moved.norm() <= options_.tolerance) continue;
+      if (!common) common = moved;
+      if ((moved - *common).norm() > options_.tolerance) return false;
+    }
+    if (!common) return false;
+    const Vec3 inside = runs_.a.frames[a(at.a_begin).frame].frame.axes.transpose() * *common;
+    return (inside.array().abs() > options_.tolerance).count() == 1;
+  }
+
+  /// Whether the tolerance cannot have taken the way of one motion for that of another one.
+  bool is_clear_order(const ActionRanges& at, const std::vector<std::size_t>& order) const {
+    constexpr double kFarApart = 4;
+    bool is_other_order = false;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const std::size_t own = at.b_begin + i;
+      if (order[i] == own) continue;
+      is_other_order = true;
+      const MachineAction& left = a(at.a_begin + i);
+      const Vec3 apart = (b(own).to.tip - b(own).from.tip) - (left.to.tip - left.from.tip);
+      if (apart.norm() <= kFarApart * options_.tolerance && goes_same_way(runs_, left, b(own))) return false;
+    }
+    return is_other_order;
   }
 
   bool name_permuted(const ActionRanges& at, const std::vector<std::size_t>& order) {
@@ -275,7 +312,9 @@ class PartNamer {
       return true;
     }
     if (!part.is_closed || part.after != part.before) return false;
-    return name_permuted(part.actions, permuted(part.actions, is_same_way));
+    const std::vector<std::size_t> order = permuted(part.actions, is_same_way);
+    if (!is_clear_order(part.actions, order) || is_one_coordinate(part.actions)) return false;
+    return name_permuted(part.actions, order);
   }
 
   /// A closed contour the other way around.

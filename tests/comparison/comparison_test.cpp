@@ -76,6 +76,13 @@ const ComparisonCase kCases[] = {
     {"Coordinate", kSquare, square("X100\n", "X101\n"), "moved 5-6|5-6: moved by X1\n"},
     {"CoordinateOfOneMotion", kHead + "X50 Y50\nX100 Y0\nM02\n", kHead + "X50 Y50.5\nX100 Y0\nM02\n",
      "moved 4|4: moved by Y0.5\n"},
+    // Their ways are the same in another order, but a coordinate has another sign.
+    {"SignOfACoordinate", kPlunged + "X10\nY50\nX20\nY20\nX30\nM02\n", kPlunged + "X10\nY-10\nX20\nY20\nX30\nM02\n",
+     "moved 6-7|6-7: moved by Y-60\n"},
+    {"SignOfADepth", kHead + "G01 Z30 F500\nZ40\nX50\nM02\n", kHead + "G01 Z50 F500\nZ40\nX50\nM02\n",
+     "moved 4|4: moved by Z20\n"},
+    {"SignOfARectangle", kHead + "G91 G01 X100 F500\nY50\nX-100\nY-50\nG90\nX30\nM02\n",
+     kHead + "G91 G01 X100 F500\nY-50\nX-100\nY50\nG90\nX30\nM02\n", "moved 5-6|5-6: moved by Y-100\n"},
     {"LastMotion", kSquare, square("G00 Z40\nM02", "G00 Z30\nM02"), "moved 9|9: moved by Z-10\n"},
     {"Depth", kSquare, square("Z-5 ", "Z-5.2 "), "moved 4-8|4-8: moved by Z-0.2\n"},
     {"IncrementMovesWhatFollows", kRow, replaced(kRow, "G00 Z3\nX20\n", "G00 Z3\nX21\n"),
@@ -288,6 +295,29 @@ TEST_P(ComparisonTable, NamesTheChanges) {
 
 INSTANTIATE_TEST_SUITE_P(Programs, ComparisonTable, testing::ValuesIn(kCases),
                          [](const auto& info) { return std::string(info.param.name); });
+
+/// With a large tolerance, ways that differ by less than it have no order.
+TEST(Comparison, TakesNoBumpForAnotherOrder) {
+  const std::string old_program = kPlunged + "X10 Y5\nX20 Y1\nX30 Y0\nX40 Y3\nX50 Y9\nM02\n";
+  const std::string new_program = kPlunged + "X10 Y5.06\nX20 Y1.12\nX30 Y0.12\nX40 Y3.06\nX50 Y9\nM02\n";
+  EXPECT_EQ(shown(changes_between(old_program, new_program, {.tolerance = 0.1})), "moved 6-7|6-7: moved by Y0.12\n");
+}
+
+/// What the change itself takes, where it begins or ends within a line of the other program.
+TEST(Comparison, TimesAFeedOnAPartOfALine) {
+  const auto check = [](const std::string& old_words, const std::string& new_words) {
+    const RecordedRun old_run = recorded(kPlunged + old_words + "M02\n");
+    const RecordedRun new_run = recorded(kPlunged + new_words + "M02\n");
+    const std::vector<BehaviorChange> changes = compare(old_run, new_run, {});
+    double seconds = 0;
+    for (const BehaviorChange& change : changes) seconds += change.seconds;
+    EXPECT_NEAR(seconds, new_run.seconds - old_run.seconds, 0.1) << old_words << new_words;
+  };
+  check("X110 F500\n", "X60 F500\nX110 F700\n");
+  check("X110 F500\n", "X30 F500\nX60 F700\nX110 F500\n");
+  check("X60 F500\nX110 F700\n", "X110 F500\n");
+  check("X30 F500\nX110 F500\n", "X60 F300\nX110 F700\n");
+}
 
 TEST(Comparison, IgnoresWhatIsAskedFor) {
   const std::string changed = kHead + "G04 P2\n" + "G01 X50 F500 G09\nM02\n";
