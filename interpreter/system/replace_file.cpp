@@ -43,9 +43,11 @@ void FileReplacement::write(std::string_view text) {
   output_->write(text);
 }
 
-bool FileReplacement::is_unchanged() const {
+/// What others have done to the file meanwhile that forbids replacing it; null for nothing.
+const Text* FileReplacement::change_meanwhile() const {
   const std::optional<FileStatus> now = status_of(target_);
-  return now && now->is_unchanged_since(status_);
+  if (!now || !now->is_unchanged_since(status_)) return &kHasChanged;
+  return now->names > 1 ? &kHasOtherNames : nullptr;
 }
 
 std::string FileReplacement::why_not(Language language) const {
@@ -55,7 +57,7 @@ std::string FileReplacement::why_not(Language language) const {
 std::optional<std::string> FileReplacement::commit(Language language) {
   write({});  // The new text may be empty.
   if (output_) error_ = output_->sync();
-  if (error_ == 0 && refusal_ == nullptr && !is_unchanged()) refusal_ = &kHasChanged;
+  if (error_ == 0 && refusal_ == nullptr) refusal_ = change_meanwhile();
   if (error_ == 0 && refusal_ == nullptr) error_ = output_->commit();
   output_.reset();
   return error_ != 0 || refusal_ != nullptr ? std::optional(why_not(language)) : std::nullopt;

@@ -30,7 +30,7 @@ class FileReplacement {
 
  private:
   std::string why_not(dialect::Language language) const;
-  bool is_unchanged() const;
+  const dialect::Text* change_meanwhile() const;
 
   std::filesystem::path target_;  // Path without symlinks.
   FileStatus status_;
