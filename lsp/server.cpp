@@ -205,7 +205,11 @@ void Server::cancel_progress(const rpc::CallPointer& call) {
 
 // --- Documents
 
-void Server::open(const rpc::CallPointer& call) { open_documents_.open(call, client_); }
+void Server::open(const rpc::CallPointer& call) {
+  open_documents_.open(call, client_);
+  // A text may be shown from before the program was closed.
+  refresh_texts_about(call->params().at("textDocument").at("uri"));
+}
 
 void Server::edit(const rpc::CallPointer& call) {
   OpenDocument* const document = open_documents_.find(call->params());
@@ -218,7 +222,6 @@ void Server::close(const rpc::CallPointer& call) {
   const OpenDocument* const document = open_documents_.find(call->params());
   if (!document) return;
   const bool is_configuration = document->is_configuration();
-  current_texts_.erase(std::string(document->uri()));
   open_documents_.close(std::string(document->uri()), *client_);
   if (is_configuration) reconfigure_all();
 }
@@ -311,34 +314,40 @@ void Server::write_text(const rpc::CallPointer& call) {
   if (call->is_notification()) return;
   const std::string uri = call->params().at("uri");
   const std::optional<protocol::TextAboutProgram> text = protocol::read_text_uri(uri);
-  if (!text)
-    return outbox_.refuse(*call, ErrorCode::InvalidParams, fmt::format("{} names no text about a program", uri));
+  if (!text) return outbox_.refuse(*call, ErrorCode::InvalidParams, "the URI names no text about a program");
   if (open_documents_.contains(text->program) && client_->can("/workspace/textDocumentContent")) {
     std::set<std::string>& texts = current_texts_[text->program];
     if (texts.size() == kMaxTexts) texts.erase(texts.begin());
     texts.insert(uri);
   }
-  ask_for_text(*text, call);
+  ask_for_text(*text, call, answerer);
 }
 
-void Server::ask_for_text(const protocol::TextAboutProgram& text, const rpc::CallPointer& call) {
+void Server::ask_for_text(const protocol::TextAboutProgram& text, const rpc::CallPointer& call,
+                          const TakerOf& taker_of) {
   const auto method = texts_.find(text.kind);
   if (method == texts_.end())
     return outbox_.refuse(*call, ErrorCode::InvalidParams, fmt::format("there is no text {}", text.kind));
   Json params = {{"textDocument", {{"uri", text.program}}}};
   if (text.line) params["line"] = *text.line;
-  ask(method->second, call, std::move(params), answerer);
+  ask(method->second, call, std::move(params), taker_of);
 }
 
-/// A client that cannot show documents of the server gets the text itself.
+/// What is shown is written first, so that what cannot be written is refused. A client that cannot show documents of
+/// the server gets the text itself.
 void Server::show_text(const rpc::CallPointer& call, const Json& argument) {
-  const protocol::TextAboutProgram text = {.kind = argument.at("text"),
-                                           .program = argument.at("uri"),
-                                           .line = protocol::member<std::uint32_t>(argument, "line")};
+  protocol::TextAboutProgram text = {.kind = argument.at("text"), .program = argument.at("uri"), .line = {}};
+  if (const auto line = argument.find("line"); line != argument.end())  // Valid as that of a position is.
+    text.line = Json{{"line", *line}, {"character", 0u}}.get<protocol::ClientPosition>().line;
   const bool is_shown = client_->can("/workspace/textDocumentContent") && client_->can("/window/showDocument/support");
-  if (!is_shown || call->is_notification()) return ask_for_text(text, call);
-  outbox_.request("window/showDocument", {{"uri", protocol::uri_of(text)}, {"takeFocus", false}});
-  outbox_.reply(*call, nullptr);
+  if (!is_shown) return ask_for_text(text, call, answerer);
+  const std::string uri = protocol::uri_of(text);
+  ask_for_text(text, call, [this, uri](const PendingRequest& request) {
+    return rpc::OnWorker<std::string>(rpc::OnLoop<std::string>(loop_, [this, uri, request](const std::string&) {
+      outbox_.request("window/showDocument", {{"uri", uri}, {"takeFocus", false}});
+      request.answer("null");
+    }));
+  });
 }
 
 void Server::refresh_texts_about(const std::string& program) {

@@ -80,7 +80,7 @@ class Server final : public rpc::Peer {
   void watch_files();
   void ask(const features::Method& method, const rpc::CallPointer& call, rpc::Json params, const TakerOf& taker_of);
   void ask_closed(const features::Method& method, const rpc::CallPointer& call, const std::string& uri);
-  void ask_for_text(const protocol::TextAboutProgram& text, const rpc::CallPointer& call);
+  void ask_for_text(const protocol::TextAboutProgram& text, const rpc::CallPointer& call, const TakerOf& taker_of);
   void show_text(const rpc::CallPointer& call, const rpc::Json& argument);
   void refresh_texts_about(const std::string& program);
   void ask_workspace(const features::WorkspaceRequest& workspace_request, const rpc::CallPointer& call);

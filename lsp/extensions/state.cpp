@@ -1,4 +1,7 @@
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -72,17 +75,35 @@ StateResult answer_state(const Snapshot& snapshot, const StateParams& params) {
   return {queries::run_line(snapshot, params.line)};
 }
 
-/// A heading with the line as it stands in the program, and the table.
-TextContent write_state(const Snapshot& snapshot, const StateParams& params) {
-  static constexpr dialect::Text kNone = {"No path leads here, or paths differ.",
-                                          "Nessun percorso arriva qui, o i percorsi sono diversi."};
+struct StateTextParams {
+  std::optional<std::uint32_t> line;
+};
+
+void from_json(const Json& json, StateTextParams& params) {
+  params.line = protocol::member<std::uint32_t>(json, "line");
+}
+
+/// The table of a line, or why there is none.
+std::string table_of(const Snapshot& snapshot, std::size_t line) {
+  static constexpr dialect::Text kNoLine = {"There is no such line.", "Questa riga non c'è."};
+  static constexpr dialect::Text kNoPath = {"No path leads here.", "Nessun percorso arriva qui."};
+  static constexpr dialect::Text kTooMany = {"Too many paths lead here.", "Troppi percorsi arrivano qui."};
   const dialect::Language language = snapshot.language();
-  std::string heading = fmt::format("{}:{}", protocol::name_in(snapshot.uri()), params.line + std::size_t{1});
-  if (params.line < snapshot.document().line_count())
-    heading += "  " + text::printable(snapshot.document().line(params.line)->text);
-  const std::optional<queries::LineRun> run = queries::run_line(snapshot, params.line);
-  return {fmt::format("{}\n\n{}", heading,
-                      run ? queries::state_table(*run, language) : std::string(kNone.in(language)) + "\n")};
+  const auto sentence = [&](const dialect::Text& text) { return std::string(text.in(language)) + "\n"; };
+  if (line >= snapshot.document().line_count()) return sentence(kNoLine);
+  if (const auto run = queries::run_line(snapshot, line)) return queries::state_table(*run, language);
+  const std::vector<queries::LineRun> runs = queries::run_line_on_all_paths(snapshot, line);
+  if (!runs.empty()) return queries::state_table(runs, language);
+  return sentence(queries::is_never_reached(snapshot, line) ? kNoPath : kTooMany);
+}
+
+/// A heading with the line as it stands in the program, and the table.
+TextContent write_state(const Snapshot& snapshot, const StateTextParams& params) {
+  if (!params.line) throw rpc::Error(rpc::ErrorCode::InvalidParams, "a state is that at a line, which is missing");
+  std::string heading = fmt::format("{}:{}", protocol::name_in(snapshot.uri()), *params.line + std::size_t{1});
+  if (*params.line < snapshot.document().line_count())
+    heading += "  " + text::printable(snapshot.document().line(*params.line)->text);
+  return {fmt::format("{}\n\n{}", heading, table_of(snapshot, *params.line))};
 }
 
 }  // namespace

@@ -43,10 +43,12 @@ static std::string machine_position(const State& state) {
 
 static std::string tool(const State& state) {
   if (state.tool == execution::ToolCode{}) return kNothing;
+  if (!state.tool_known) return kUnknown;
   return fmt::format("T{:d}{:02d}{:03d}", state.tool.head, state.tool.holder, state.tool.tool);
 }
 
 static std::string spindle(const State& state) {
+  if (state.spindle == execution::Spindle::Unknown) return kUnknown;
   const std::string function = fmt::format("M{:02d}", state.spindle_function);
   return state.spindle_speed > 0 ? fmt::format("{} S{}", function, format_value(state.spindle_speed)) : function;
 }
@@ -66,19 +68,28 @@ using TableRow = std::array<std::string, 3>;
 
 static std::size_t width(std::string_view text) { return text::column_of(text, text.size()) - 1; }
 
-std::string state_table(const LineRun& run, Language language) {
+static std::string table_of(const std::vector<LineRun>& runs, bool are_joined, Language language) {
   static constexpr Text kHead[] = {{"", ""}, {"before", "prima"}, {"after", "dopo"}};
   std::vector<TableRow> rows = {
       {std::string(kHead[0].in(language)), std::string(kHead[1].in(language)), std::string(kHead[2].in(language))}};
   const auto add = [&](const Text& name, const auto& value) {
-    rows.push_back({std::string(name.in(language)), value(run.before), value(run.after)});
+    const auto agreed = [&](const State LineRun::*state) {
+      const std::string first = value(runs.front().*state);
+      const bool is_same =
+          std::all_of(runs.begin(), runs.end(), [&](const LineRun& run) { return value(run.*state) == first; });
+      return is_same ? first : std::string(kUnknown);
+    };
+    rows.push_back({std::string(name.in(language)), agreed(&LineRun::before), agreed(&LineRun::after)});
   };
   add({"position", "posizione"}, programmed_position);
   add({"machine position", "posizione macchina"}, machine_position);
   add({"workpiece zero", "zero pezzo"}, [](const State& state) { return place(state.workpiece_origin); });
-  add({"tool", "utensile"}, tool);
-  add({"spindle", "mandrino"}, spindle);
-  add({"feed", "avanzamento"}, feed);
+  const auto add_if_certain = [&](const Text& name, std::string (*value)(const State&)) {
+    add(name, [&](const State& state) { return are_joined ? std::string(kUnknown) : value(state); });
+  };
+  add_if_certain({"tool", "utensile"}, tool);
+  add_if_certain({"spindle", "mandrino"}, spindle);
+  add_if_certain({"feed", "avanzamento"}, feed);
   for (std::size_t group = 0; group < dialect::kModalGroupCount; ++group)
     add(dialect::kModalGroups[group].name, [&](const State& state) { return code_in_force(state, group); });
 
@@ -98,5 +109,9 @@ std::string state_table(const LineRun& run, Language language) {
   }
   return table;
 }
+
+std::string state_table(const LineRun& run, Language language) { return table_of({run}, false, language); }
+
+std::string state_table(const std::vector<LineRun>& runs, Language language) { return table_of(runs, true, language); }
 
 }  // namespace isocnc::queries

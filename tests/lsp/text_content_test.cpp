@@ -71,7 +71,7 @@ TEST_F(TextContent, OfTheStateIsATableInWhichChangesAreMarked) {
             "* machine position         X100 Y2 Z1      X130 Y2 Z1\n"
             "  workpiece zero           X100 Y0 Z0      X100 Y0 Z0\n"
             "  tool                     T101001         T101001\n"
-            "  spindle                  M05             M05\n"
+            "  spindle                  ?               ?\n"
             "* feed                     -               F1000\n"
             "* motion                   G00             G01\n"
             "  arc plane                G17             G17\n"
@@ -96,7 +96,7 @@ TEST_F(TextContent, SpeaksTheReadersLanguage) {
 TEST_F(TextContent, SaysWhereNothingIsKnown) {
   start(Json::object());
   EXPECT_EQ(content("isocnc://state/?line=70&program=file%3A///nowhere/part.iso"),
-            "part.iso:71\n\nNo path leads here, or paths differ.\n");
+            "part.iso:71\n\nThere is no such line.\n");
   session.edit(kUri, 2, {change(2, 0, 2, 12, "G00 X1 X2 Y2 Z1")});
   EXPECT_THAT(content(kStateOfMove).get<std::string>(), HasSubstr("position                 X? Y2 Z1 B0 C0"));
 }
@@ -127,8 +127,9 @@ TEST_F(TextContent, IsRefusedWithAReason) {
   for (const char* const uri : {"file:///nowhere/part.iso", "isocnc://state/", "isocnc://state/?line=3",
                                 "isocnc://state/?line=x&program=file%3A///nowhere/part.iso",
                                 "isocnc://state/?line=99999999999&program=file%3A///nowhere/part.iso"})
-    EXPECT_EQ(refusal(uri), std::string(uri) + " names no text about a program");
-  EXPECT_THAT(refusal("isocnc://state/?program=file%3A///nowhere/part.iso").get<std::string>(), HasSubstr("line"));
+    EXPECT_EQ(refusal(uri), "the URI names no text about a program");
+  EXPECT_EQ(refusal("isocnc://state/?program=file%3A///nowhere/part.iso"),
+            "a state is that at a line, which is missing");
 }
 
 TEST_F(TextContent, IsRefreshedOnceAfterEachChange) {
@@ -147,14 +148,41 @@ TEST_F(TextContent, IsRefreshedOnceAfterEachChange) {
   EXPECT_THAT(content(kStateOfMove).get<std::string>(), HasSubstr("posizione macchina"));
 }
 
-TEST_F(TextContent, OfAClosedProgramIsForgotten) {
+TEST_F(TextContent, IsRefreshedWhenItsProgramIsOpenedAgain) {
   start_showing();
   content(kStateOfMove);
   session.close(kUri);
-  session.open(kUri, kFiveLines);
-  session.edit(kUri, 2, {change(3, 4, 3, 7, "X40")});
-  content(kSyntax);
-  EXPECT_FALSE(has_refresh());
+  session.open(kUri, "M02\n");
+  EXPECT_EQ(session.wait_for("workspace/textDocumentContent/refresh")["params"]["uri"], kStateOfMove);
+}
+
+/// Values on which all paths agree, as in a hover.
+TEST_F(TextContent, OfAStateHasWhatIsTheSameOnAllPaths) {
+  session.start(Json::object(), {{"locale", "en"}});
+  session.open(kUri, "M06 T101001\nG00 X1\nIF VGPL = 1 GOTO N10\nS1000\nM03\nM06 T101002\nN10 X2\nM02\nX3\n");
+  const std::string text = content("isocnc://state/?line=6&program=file%3A///nowhere/part.iso");
+  EXPECT_THAT(text, HasSubstr("\n* position                 X1 Y0 Z0 B0 C0  X2 Y0 Z0 B0 C0\n"));
+  EXPECT_THAT(text, HasSubstr("\n  tool                     ?               ?\n"));
+  EXPECT_EQ(content("isocnc://state/?line=8&program=file%3A///nowhere/part.iso"),
+            "part.iso:9  X3\n\nNo path leads here.\n");
+}
+
+TEST_F(TextContent, ThatCannotBeWrittenIsNotShown) {
+  start_showing();
+  const Json good = {{"uri", kUri}, {"line", 3}, {"text", "state"}};
+  for (const Json& wrong : {Json{{"text", "weather"}}, Json{{"uri", "file:///nowhere/other.iso"}}, Json{{"line", -1}},
+                            Json{{"line", nullptr}}}) {
+    Json argument = good;
+    argument.update(wrong);
+    EXPECT_TRUE(session
+                    .respond("workspace/executeCommand",
+                             {{"command", "isocnc.showText"}, {"arguments", Json::array({argument})}})
+                    .contains("error"))
+        << wrong;
+  }
+  run_command(good);
+  session.wait_for("window/showDocument");
+  EXPECT_FALSE(session.has([](const Json& message) { return message.value("method", "") == "window/showDocument"; }));
 }
 
 TEST_F(TextContent, IsShownByACommand) {
