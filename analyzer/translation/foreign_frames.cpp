@@ -34,10 +34,7 @@ void TranslationRun::change_frame(Change&& change) {
 
 void TranslationRun::add_frames(CurrentBlock& current) {
   for (const auto& [tenths, role] : current.gs) {
-    if (is_further_zero(current, role))
-      select_further_zero(current, tenths);
-    else if (role == ZeroPoint)
-      select_zero(current, tenths);
+    if (role == ZeroPoint || role == FurtherZero) select_zero(current, tenths, role);
     if (role == LocalShift) set_local_shift(current);
     if (role == SetPosition) set_position(current);
     if (role == ClearShift || role == SuspendShift || role == RestoreShift) {
@@ -58,10 +55,7 @@ void TranslationRun::add_frames(CurrentBlock& current) {
 void TranslationRun::apply_refused_frames(CurrentBlock& current) {
   static constexpr ForeignRole kShifts[] = {LocalShift, SetPosition, ClearShift, SuspendShift, RestoreShift, Data};
   for (const auto& [tenths, role] : current.gs) {
-    if (is_further_zero(current, role))
-      select_further_zero(current, tenths);
-    else if (role == ZeroPoint)
-      select_zero(current, tenths);
+    if (role == ZeroPoint || role == FurtherZero) select_zero(current, tenths, role);
     if (role == Data) forget_zero(current);
     if (tenths == 281 || tenths == 301) lost_references_.insert(tenths - 1);
     if (role == Rotation) suspended_by_.insert(Rotation);
@@ -78,7 +72,8 @@ void TranslationRun::end_rotation() {
   change_frame([&] { frames_.rotation.reset(); });
 }
 
-void TranslationRun::select_zero(CurrentBlock& current, int name) {
+void TranslationRun::select_zero(CurrentBlock& current, int name, ForeignRole role) {
+  if (is_further_zero(current, role)) return select_further_zero(current, name);
   change_frame([&] { frames_.selected = name; });
   frame_is_wrong_ = false;
   if (frames_.has_zero()) return;

@@ -133,7 +133,7 @@ class TranslationRun {
   void add_frames(CurrentBlock& current);
   void apply_refused_frames(CurrentBlock& current);
   void end_rotation();
-  void select_zero(CurrentBlock& current, int name);
+  void select_zero(CurrentBlock& current, int name, ForeignRole role);
   bool is_further_zero(const CurrentBlock& current, ForeignRole role) const;
   void select_further_zero(CurrentBlock& current, int name);
   void forget_zero(const CurrentBlock& current);

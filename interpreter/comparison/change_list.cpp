@@ -208,33 +208,40 @@ void ChangeList::follow_value(std::optional<OpenValue>& open, ChangeKind kind, O
   open->of_b.last = next.of_b.last;
 }
 
+/// Compares the motions that go along each other in one step; where that is one of each, no length is needed.
+void ChangeList::compare_overlaps() {
+  if (overlaps_.size() == 1) {
+    compare_feeds(overlaps_[0].first, overlaps_[0].second);
+    return compare_sides(overlaps_[0].first, overlaps_[0].second);
+  }
+  double from = 0;
+  double a_from = 0;  // Where the motions of this overlap begin, along the path of the step.
+  double b_from = 0;
+  for (std::size_t n = 0; n < overlaps_.size(); ++n) {
+    const auto& [i, k] = overlaps_[n];
+    const double a_length = ActionPath(runs_.a, a(i)).length();
+    const double b_length = ActionPath(runs_.b, b(k)).length();
+    const double until = std::min(a_from + a_length, b_from + b_length);
+    const auto outside = [&](double begin, double length) {
+      return length > 0 ? OutsideParts{std::clamp((from - begin) / length, 0.0, 1.0),
+                                       std::clamp((begin + length - until) / length, 0.0, 1.0)}
+                        : OutsideParts{};
+    };
+    compare_feeds(i, k, outside(a_from, a_length), outside(b_from, b_length));
+    compare_sides(i, k);
+    from = until;
+    if (n + 1 == overlaps_.size()) break;
+    if (overlaps_[n + 1].first != i) a_from += a_length;
+    if (overlaps_[n + 1].second != k) b_from += b_length;
+  }
+}
+
 void ChangeList::compare_feeds_along(const AlignedPiece& piece) {
   for (PlaceInBoth place{piece.a_begin, piece.b_begin}; place.a < piece.a_end;) {
     overlaps_.clear();
     const auto next =
         same_step(runs_, place, piece.shift, [&](std::size_t i, std::size_t k) { overlaps_.emplace_back(i, k); });
-    double from = 0;
-    double a_from = 0;  // Where the motions of this overlap begin, along the path of the step.
-    double b_from = 0;
-    for (std::size_t n = 0; n < overlaps_.size(); ++n) {
-      const auto& [i, k] = overlaps_[n];
-      const double a_length = ActionPath(runs_.a, a(i)).length();
-      const double b_length = ActionPath(runs_.b, b(k)).length();
-      const double until = std::min(a_from + a_length, b_from + b_length);
-      const auto outside = [&](double begin, double length) {
-        return length > 0 ? OutsideParts{std::clamp((from - begin) / length, 0.0, 1.0),
-                                         std::clamp((begin + length - until) / length, 0.0, 1.0)}
-                          : OutsideParts{};
-      };
-      const bool is_whole = overlaps_.size() == 1;
-      compare_feeds(i, k, is_whole ? OutsideParts{} : outside(a_from, a_length),
-                    is_whole ? OutsideParts{} : outside(b_from, b_length));
-      compare_sides(i, k);
-      from = until;
-      if (n + 1 == overlaps_.size()) break;
-      if (overlaps_[n + 1].first != i) a_from += a_length;
-      if (overlaps_[n + 1].second != k) b_from += b_length;
-    }
+    compare_overlaps();
     place = next.value_or(PlaceInBoth{place.a + 1, place.b + 1});
   }
 }

@@ -84,6 +84,7 @@ class ChangeList {
   void close_shift();
   void close_feed() { close(feed_, ChangeKind::Feed); }
   void close_side() { close(side_, ChangeKind::Function); }
+  void compare_overlaps();
   void compare_feeds(std::size_t i, std::size_t k, const OutsideParts& of_a, const OutsideParts& of_b);
   void close(std::optional<OpenValue>& open, ChangeKind kind);
   void follow_value(std::optional<OpenValue>& open, ChangeKind kind, OpenValue next);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "lsp/features/feature.h"
 
 namespace isocnc::extensions {
@@ -18,5 +21,14 @@ using features::on;
 using features::on_any;
 using features::Snapshot;
 using features::TextContent;
+
+/// The parameters of a text about a program.
+struct TextParams {
+  std::optional<std::uint32_t> line;  ///< From 0; without it, the text is about the whole program.
+};
+
+inline void from_json(const Json& json, TextParams& params) {
+  params.line = protocol::member<std::uint32_t>(json, "line");
+}
 
 }  // namespace isocnc::extensions

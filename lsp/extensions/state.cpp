@@ -75,14 +75,6 @@ StateResult answer_state(const Snapshot& snapshot, const StateParams& params) {
   return {queries::run_line(snapshot, params.line)};
 }
 
-struct StateTextParams {
-  std::optional<std::uint32_t> line;
-};
-
-void from_json(const Json& json, StateTextParams& params) {
-  params.line = protocol::member<std::uint32_t>(json, "line");
-}
-
 /// The table of a line, or why there is none.
 std::string table_of(const Snapshot& snapshot, std::size_t line) {
   static constexpr dialect::Text kNoLine = {"There is no such line.", "Questa riga non c'è."};
@@ -98,7 +90,7 @@ std::string table_of(const Snapshot& snapshot, std::size_t line) {
 }
 
 /// A heading with the line as it stands in the program, and the table.
-TextContent write_state(const Snapshot& snapshot, const StateTextParams& params) {
+TextContent write_state(const Snapshot& snapshot, const TextParams& params) {
   if (!params.line) throw rpc::Error(rpc::ErrorCode::InvalidParams, "a state is that at a line, which is missing");
   std::string heading = fmt::format("{}:{}", protocol::name_in(snapshot.uri()), *params.line + std::size_t{1});
   if (*params.line < snapshot.document().line_count())

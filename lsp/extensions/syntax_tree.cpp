@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -25,14 +24,6 @@ struct TreeParams : protocol::DocumentParams {
 void from_json(const Json& json, TreeParams& params) {
   from_json(json, static_cast<protocol::DocumentParams&>(params));
   params.range = protocol::member<ClientRange>(json, "range");
-}
-
-struct TreeTextParams {
-  std::optional<std::uint32_t> line;
-};
-
-void from_json(const Json& json, TreeTextParams& params) {
-  params.line = protocol::member<std::uint32_t>(json, "line");
 }
 
 std::string_view name_of(InstructionKind kind) {
@@ -109,7 +100,7 @@ std::string answer_syntax_tree(const Snapshot& snapshot, const TreeParams& param
 }
 
 /// Of one line, or of the whole program.
-TextContent write_syntax_tree(const Snapshot& snapshot, const TreeTextParams& params) {
+TextContent write_syntax_tree(const Snapshot& snapshot, const TextParams& params) {
   if (!params.line) return {trees(snapshot, 0, kMaxLines)};
   return {trees(snapshot, *params.line, *params.line + std::size_t{1})};
 }

@@ -8,6 +8,7 @@
 
 #include "interpreter/dialect/codes.h"
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/running/event.h"
 #include "interpreter/text/unicode.h"
 
 namespace isocnc::queries {
@@ -44,7 +45,7 @@ static std::string machine_position(const State& state) {
 static std::string tool(const State& state) {
   if (state.tool == execution::ToolCode{}) return kNothing;
   if (!state.tool_known) return kUnknown;
-  return fmt::format("T{:d}{:02d}{:03d}", state.tool.head, state.tool.holder, state.tool.tool);
+  return running::tool_name(state.tool);
 }
 
 static std::string spindle(const State& state) {
