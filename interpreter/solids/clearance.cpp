@@ -1,10 +1,12 @@
 #include "interpreter/solids/clearance.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "interpreter/solids/convex_clearance.h"
+#include "interpreter/solids/deep_points.h"
+#include "interpreter/solids/hulls.h"
 
 namespace isocnc::solids {
 
@@ -14,25 +16,57 @@ using geometry::Vec3;
 
 namespace {
 
-/// A lower bound from the sphere around the body and the box around the obstacle. NaN gives minus infinity.
-double coarse_bound(const RevolvedBody& body, const AxisPlacement& at, const BoundingBox& extent) {
-  const Vec3 center = at.at(body.middle());
-  const double bound = detail::sphere_bound(center, body.sphere_radius(), extent);
-  return center.allFinite() && at.axis.allFinite() ? bound : -detail::kUnbounded;
-}
-
 using PieceInPlace = detail::RoundedShape<PlacedFrustum>;
 
 PieceInPlace placed(const BodyPiece& piece, const AxisPlacement& at) {
   return {PlacedFrustum(piece.core, at), piece.rounding};
 }
 
+/// How far a body must be moved to be free of a convex obstacle that it overlaps, and the point of the obstacle that
+/// its deepest piece is at. A piece that would come into the obstacle on the way counts as well. `touching` is the
+/// result where no piece overlaps it after all, but for rounding.
+template <class Shape>
+Clearance body_in(const RevolvedBody& body, const AxisPlacement& at, const Shape& shape, const Clearance& touching) {
+  std::vector<PieceInPlace> overlapping;
+  std::vector<PieceInPlace> others;
+  std::vector<Clearance> gaps;
+  for (const BodyPiece& piece : body.pieces()) {
+    const PieceInPlace in_place = placed(piece, at);
+    const Clearance found = detail::gap(in_place, shape, 0);
+    (found.upper <= 0 ? overlapping : others).push_back(in_place);
+    if (found.upper <= 0) gaps.push_back(found);
+  }
+  if (gaps.empty()) return touching;
+  Overlap out;
+  for (bool grows = true; grows;) {
+    out = overlap(detail::PieceHull(overlapping), shape);
+    const Vec3 by = -(out.depth + kApart) * out.direction;
+    const auto stays_out = std::partition(others.begin(), others.end(), [&](const PieceInPlace& piece) {
+      return detail::gap(detail::rounded(piece.core.moved(by), piece.rounding), shape, 0).upper > 0;
+    });
+    grows = stays_out != others.end();
+    overlapping.insert(overlapping.end(), stays_out, others.end());
+    others.erase(stays_out, others.end());
+  }
+  std::size_t deepest = 0;
+  const auto depth_of = [&](std::size_t i) {
+    return overlapping[i].core.highest(out.direction) + overlapping[i].rounding;
+  };
+  for (std::size_t i = 1; i < gaps.size(); ++i)
+    if (depth_of(i) > depth_of(deepest)) deepest = i;
+  Clearance result = gaps[deepest];
+  result.lower = result.upper = -out.depth;
+  return result;
+}
+
 /// All pieces of a body against one convex obstacle. A piece need not be known better than the nearest one so far.
 template <class Shape>
 Clearance body_to(const RevolvedBody& body, const AxisPlacement& at, const Shape& shape, double sufficient) {
   Clearance nearest;
-  for (const BodyPiece& piece : body.pieces())
-    detail::include(nearest, detail::between(placed(piece, at), shape, std::min(sufficient, nearest.upper)));
+  for (const BodyPiece& piece : body.pieces()) {
+    detail::include(nearest, detail::gap(placed(piece, at), shape, std::min(sufficient, nearest.upper)));
+    if (nearest.upper <= 0) return body_in(body, at, shape, nearest);
+  }
   return nearest;
 }
 
@@ -45,86 +79,72 @@ Clearance body_to_surface(const RevolvedBody& body, const AxisPlacement& at, con
   return nearest;
 }
 
-/// The deepest of some points of a body in a closed mesh: to be free, the body has to move by their distance from the
-/// surface. A triangle is left by a body sideways, and shows no larger depth than about the body's radius.
-class DeepPoints {
- public:
-  DeepPoints(const Mesh& mesh, Clearance& deepest) : mesh_(mesh), deepest_(deepest) {}
-
-  /// Points on the axis and on the surface: at the lower end of each piece, and in the middle of what is in the mesh.
-  void take(const RevolvedBody& body, const AxisPlacement& at) {
-    constexpr int kLines = 8;
-    const Vec3 side = at.axis.unitOrthogonal();
-    const Vec3 other = at.axis.cross(side);
-    for (const BodyPiece& piece : body.pieces()) {
-      const Frustum& core = piece.core;
-      take_line(at.at(core.bottom), at.at(core.top), piece.rounding);
-      if (!(std::max(core.bottom_radius, core.top_radius) > 0)) continue;
-      for (int i = 0; i < kLines; ++i) {
-        const double angle = 2 * std::numbers::pi * i / kLines;
-        const Vec3 outwards = std::cos(angle) * side + std::sin(angle) * other;
-        take_line(at.at(core.bottom) + core.bottom_radius * outwards, at.at(core.top) + core.top_radius * outwards,
-                  piece.rounding);
-      }
-    }
-  }
-
- private:
-  void take_line(const Vec3& low, const Vec3& high, double rounding) {
-    take_point(low, rounding);
-    // What of the line is in the box around the mesh.
-    double from = 0;
-    double to = 1;
-    const Vec3 along = high - low;
-    for (int i = 0; i < 3; ++i) {
-      const double first = (mesh_.bounds().min()[i] - low[i]) / along[i];
-      const double last = (mesh_.bounds().max()[i] - low[i]) / along[i];
-      if (std::isnan(first) || std::isnan(last)) continue;
-      from = std::max(from, std::min(first, last));
-      to = std::min(to, std::max(first, last));
-    }
-    if (from < to) take_point(low + (from + to) / 2 * along, rounding);
-  }
-
-  void take_point(const Vec3& point, double rounding) {
-    const BoundingBox& box = mesh_.bounds();
-    const double most = std::min((point - box.min()).minCoeff(), (box.max() - point).minCoeff());
-    if (!(most > 0 && most + rounding > deepest_.depth()) || !mesh_.encloses(point)) return;
-    Clearance found;
-    const auto place = detail::rounded(PlacedFrustum({0, 0, 0, 0}, {point, Vec3::UnitZ()}));
-    detail::MeshSearch(mesh_, place, kExact).run(found);
-    const double depth = found.upper + rounding;
-    if (!(depth > deepest_.depth())) return;
-    deepest_ = {.lower = -depth, .upper = -depth, .on_body = point, .on_obstacle = found.on_obstacle};
-  }
-
-  const Mesh& mesh_;
-  Clearance& deepest_;
-};
-
 }  // namespace
 
 Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Cuboid& obstacle, double sufficient) {
-  const double bound = coarse_bound(body, at, obstacle.bounds());
+  const double bound = detail::coarse_bound(body, at, obstacle.bounds());
   if (bound >= sufficient || !is_usable(bound)) return bounded_by(bound);
   return body_to(body, at, obstacle, sufficient);
 }
 
 Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Cylinder& obstacle, double sufficient) {
-  const double bound = coarse_bound(body, at, obstacle.bounds());
+  const double bound = detail::coarse_bound(body, at, obstacle.bounds());
   if (bound >= sufficient || !is_usable(bound)) return bounded_by(bound);
   return body_to(body, at, obstacle.solid(), sufficient);
 }
 
 Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Mesh& obstacle, double sufficient) {
-  const double bound = coarse_bound(body, at, obstacle.bounds());
+  const double bound = detail::coarse_bound(body, at, obstacle.bounds());
   if (bound >= sufficient || !is_usable(bound)) return bounded_by(bound);
   Clearance nearest = body_to_surface(body, at, obstacle, sufficient);
   // Apart from the surface, the body is on one side of it as a whole, and so is any point of it.
   if (nearest.lower > 0 && obstacle.encloses(placed(body.pieces().front(), at).core.middle()))
     nearest = detail::enclosed(nearest, sufficient, [&] { return body_to_surface(body, at, obstacle, kExact); });
-  if (nearest.upper < 0 && obstacle.topology().is_closed()) DeepPoints(obstacle, nearest).take(body, at);
+  if (!(nearest.upper < 0)) return nearest;
+  if (obstacle.convex()) {
+    const Clearance found = body_in(body, at, detail::PlacedConvexMesh(obstacle, Placement::Identity()), nearest);
+    nearest.lower = nearest.upper = found.upper;
+  } else if (obstacle.topology().is_closed()) {
+    detail::DeepPoints(obstacle, nearest).take(body, at);
+  }
   return nearest;
 }
+
+namespace {
+
+/// A lower bound of the distance of a piece's way from a shape; 0 or less where they meet.
+template <class Core, class Shape>
+double way_bound(const detail::RoundedShape<Core>& piece, const Vec3& way, const Shape& shape, double sufficient) {
+  return detail::gap(detail::rounded(detail::SweptShape(piece.core, way), piece.rounding), shape, sufficient).lower;
+}
+
+template <class Core>
+double way_bound(const detail::RoundedShape<Core>& piece, const Vec3& way, const Mesh& mesh, double sufficient) {
+  Clearance nearest;
+  const auto swept = detail::rounded(detail::SweptShape(piece.core, way), piece.rounding);
+  detail::MeshSearch(mesh, swept, sufficient).until_touch(nearest);
+  return nearest.lower;
+}
+
+}  // namespace
+
+template <Solid Obstacle>
+double way_clearance(const RevolvedBody& body, const AxisPlacement& from, const Vec3& way, const Obstacle& obstacle,
+                     double sufficient) {
+  double lowest = kExact;
+  for (const BodyPiece& piece : body.pieces()) {
+    const double enough = std::min(sufficient, lowest);
+    if constexpr (std::same_as<Obstacle, Cylinder>)
+      lowest = std::min(lowest, way_bound(placed(piece, from), way, obstacle.solid(), enough));
+    else
+      lowest = std::min(lowest, way_bound(placed(piece, from), way, obstacle, enough));
+    if (!(lowest > 0)) break;
+  }
+  return lowest;
+}
+
+template double way_clearance(const RevolvedBody&, const AxisPlacement&, const Vec3&, const Cuboid&, double);
+template double way_clearance(const RevolvedBody&, const AxisPlacement&, const Vec3&, const Cylinder&, double);
+template double way_clearance(const RevolvedBody&, const AxisPlacement&, const Vec3&, const Mesh&, double);
 
 }  // namespace isocnc::solids

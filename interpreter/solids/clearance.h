@@ -19,13 +19,13 @@ inline constexpr double kMaxCoordinate = 1e6;  ///< mm
 /// asked for less by `sufficient`.
 ///
 /// The distance is that of the nearest two points where body and obstacle are apart. Where they overlap, it is
-/// negative, and both bounds are -depth(). The depth of a convex piece of the body and a convex obstacle (box,
-/// cylinder, one triangle of a mesh) is the length of a translation that surely separates them, nearly always the
-/// shortest one; the depth of a body is that of its deepest piece, and of a mesh that of its deepest triangle or, if it
-/// is closed and the body one of revolution, of the deepest of some points of the body. So a body must move by about
-/// the depth or more to be free. The depth of two meshes is that of their deepest pair of triangles, which says little
-/// more than that they overlap. Where a closed mesh encloses the whole body, or one of the surfaces of another mesh,
-/// and the surfaces are apart, the depth is the distance of the surfaces.
+/// negative, and both bounds are -depth(). From a convex obstacle (box, cylinder, convex mesh), the depth is the length
+/// of a translation that surely frees all of the body, nearly always the shortest one. In another mesh it is that of
+/// the deepest triangle and piece of the body or, if the mesh is closed and the body one of revolution, of the deepest
+/// of some points of the body: the body must move by about the depth or more to be free. The depth of two meshes of
+/// which one is not convex is that of their deepest pair of triangles, which says little more than that they overlap.
+/// Where a closed mesh encloses the whole body, or one of the surfaces of another mesh, and the surfaces are apart, the
+/// depth is the distance of the surfaces.
 struct Clearance {
   double lower = std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -57,5 +57,12 @@ concept Solid = std::same_as<Shape, Cuboid> || std::same_as<Shape, Cylinder> || 
 /// promises. Both points are in the frame of the obstacle.
 template <Solid Moving, Solid Obstacle>
 Clearance clearance(const Moving& moving, const Placement& at, const Obstacle& obstacle, double sufficient = kExact);
+
+/// A lower bound on the distance, from an obstacle, of all that a body covers on a straight way from `from`, mm; 0 or
+/// less where it meets the obstacle's surface. It may be less than the distance by 2 kRounding, or more once it has
+/// reached `sufficient`. What a closed mesh encloses from the start does not meet its surface.
+template <Solid Obstacle>
+double way_clearance(const RevolvedBody& body, const AxisPlacement& from, const geometry::Vec3& way,
+                     const Obstacle& obstacle, double sufficient);
 
 }  // namespace isocnc::solids

@@ -36,6 +36,14 @@ inline double sphere_bound(const geometry::Vec3& center, double radius, const Bo
   return outside.norm() - radius - kRounding;
 }
 
+/// A lower bound from the sphere around the body and the box around the obstacle. A placement that is not finite gives
+/// minus infinity.
+inline double coarse_bound(const RevolvedBody& body, const AxisPlacement& at, const BoundingBox& extent) {
+  const geometry::Vec3 center = at.at(body.middle());
+  const double bound = sphere_bound(center, body.sphere_radius(), extent);
+  return center.allFinite() && at.axis.allFinite() ? bound : -kUnbounded;
+}
+
 inline bool is_usable(double bound) { return bound > -kUnbounded; }
 
 /// The points within `rounding` of a convex shape: their distance is that of the core, less `rounding`.
@@ -50,13 +58,13 @@ RoundedShape<Core> rounded(const Core& core, double rounding = 0) {
   return {core, rounding};
 }
 
-/// Two convex shapes.
+/// Two convex shapes. Where they overlap, both bounds are 0 at most: how deep is not asked for.
 template <class Core, class Shape>
-Clearance between(const RoundedShape<Core>& body, const Shape& shape, double sufficient) {
+Clearance gap(const RoundedShape<Core>& body, const Shape& shape, double sufficient) {
   const Separation found = separation(body.core, shape, sufficient + body.rounding + kRounding);
   Clearance result;
   if (found.overlaps()) {
-    result.lower = result.upper = -(overlap_depth(body.core, shape) + body.rounding);
+    result.lower = result.upper = -body.rounding;
     result.on_body = found.on_first;
   } else {
     result.lower = found.lower - body.rounding - kRounding;
@@ -65,6 +73,14 @@ Clearance between(const RoundedShape<Core>& body, const Shape& shape, double suf
     if (result.upper < 0) result.lower = result.upper;
   }
   result.on_obstacle = found.on_second;
+  return result;
+}
+
+/// Two convex shapes, with their depth where they overlap.
+template <class Core, class Shape>
+Clearance between(const RoundedShape<Core>& body, const Shape& shape, double sufficient) {
+  Clearance result = gap(body, shape, sufficient);
+  if (result.upper <= -body.rounding) result.lower = result.upper = -(overlap(body.core, shape).depth + body.rounding);
   return result;
 }
 
@@ -84,20 +100,27 @@ class MeshSearch {
       : mesh_(mesh), body_(body), sufficient_(sufficient) {}
 
   /// Adds what the mesh's surface is to the shape.
-  void run(Clearance& nearest) {
+  void run(Clearance& nearest) { walk(nearest, -kUnbounded); }
+  /// The same, but ends where they are found to touch.
+  void until_touch(Clearance& nearest) { walk(nearest, 0); }
+
+  /// Calls `use` with each triangle that the shape touches, and where, until it returns false.
+  template <class Use>
+  void each_touching(Use&& use) {
     depth_ = 0;
     push(0, bound(mesh_.nodes()[0].box));
     while (depth_ > 0) {
       const QueuedNode entry = open_[--depth_];
-      if (entry.bound >= limit(nearest)) {
-        nearest.lower = std::min(nearest.lower, entry.bound);
+      if (entry.bound > 0) continue;
+      const MeshNode& node = mesh_.nodes()[entry.node];
+      if (node.count == 0) {
+        push_children(node);
         continue;
       }
-      const MeshNode& node = mesh_.nodes()[entry.node];
-      if (node.count > 0)
-        compare(node, nearest);
-      else
-        push_children(node);
+      for (const Triangle& triangle : mesh_.triangles().subspan(node.first, node.count)) {
+        const Clearance found = gap(body_, triangle, 0);
+        if (!(found.upper > 0) && !use(triangle, found)) return;
+      }
     }
   }
 
@@ -106,6 +129,24 @@ class MeshSearch {
     std::uint32_t node;
     double bound;
   };
+
+  /// Ends when the nearest distance is `enough` or less.
+  void walk(Clearance& nearest, double enough) {
+    depth_ = 0;
+    push(0, bound(mesh_.nodes()[0].box));
+    while (depth_ > 0 && nearest.upper > enough) {
+      const QueuedNode entry = open_[--depth_];
+      if (entry.bound >= limit(nearest)) {
+        nearest.lower = std::min(nearest.lower, entry.bound);
+        continue;
+      }
+      const MeshNode& node = mesh_.nodes()[entry.node];
+      if (node.count > 0)
+        compare(node, nearest, enough);
+      else
+        push_children(node);
+    }
+  }
 
   double limit(const Clearance& nearest) const { return std::min(sufficient_, nearest.upper); }
 
@@ -132,11 +173,11 @@ class MeshSearch {
     return widest - body_.rounding - kRounding;
   }
 
-  void compare(const MeshNode& node, Clearance& nearest) const {
+  void compare(const MeshNode& node, Clearance& nearest, double enough) const {
     for (const Triangle& triangle : mesh_.triangles().subspan(node.first, node.count)) {
       const double needed = limit(nearest);
       if (needed < 0 && overlap_bound(triangle.bounds()) >= needed) continue;
-      include(nearest, between(body_, triangle, needed));
+      include(nearest, enough < 0 ? between(body_, triangle, needed) : gap(body_, triangle, needed));
     }
   }
 

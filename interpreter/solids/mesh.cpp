@@ -30,22 +30,6 @@ struct MeshEdge {
   bool runs_up = false;
 };
 
-/// Each corner's number in the order of coordinates; equal corners have the same.
-std::vector<std::uint32_t> numbered_corners(std::span<const Triangle> triangles) {
-  const auto corner = [&](std::uint32_t i) -> const Vec3& { return triangles[i / 3].corners[i % 3]; };
-  std::vector<std::uint32_t> order(3 * triangles.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return comes_before(corner(a), corner(b)); });
-  std::vector<std::uint32_t> numbers(order.size());
-  std::uint32_t number = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i > 0 && corner(order[i]) != corner(order[i - 1])) ++number;
-    numbers[order[i]] = number;
-  }
-  return numbers;
-}
-
 std::vector<MeshEdge> sorted_edges(const std::vector<std::uint32_t>& corners) {
   std::vector<MeshEdge> edges;
   edges.reserve(corners.size());
@@ -105,16 +89,70 @@ MeshTopology topology_of(std::span<const Triangle> triangles, const std::vector<
   return topology;
 }
 
+/// Adds a direction that is not known yet, but for its sign where that does not matter.
+bool add_direction(std::vector<Vec3>& known, const Vec3& direction, bool has_sign) {
+  constexpr double kSame = 1e-9;
+  const bool is_known = std::any_of(known.begin(), known.end(), [&](const Vec3& each) {
+    return (each - direction).norm() <= kSame || (!has_sign && (each + direction).norm() <= kSame);
+  });
+  if (!is_known) known.push_back(direction);
+  return !is_known;
+}
+
+/// The solid that a closed mesh encloses, if no corner is above any of its faces.
+std::optional<ConvexSolid> convex_solid(std::span<const Triangle> triangles, const MeshTopology& topology) {
+  ConvexSolid solid;
+  std::vector<Vec3>& corners = solid.corners;
+  BoundingBox box;
+  for (const Triangle& triangle : triangles)
+    for (const Vec3& corner : triangle.corners) {
+      corners.push_back(corner);
+      box.extend(corner);
+    }
+  std::sort(corners.begin(), corners.end(), comes_before);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  solid.middle = box.center();
+  const double flat = 1e-9 * box.sizes().norm();
+  for (const Triangle& triangle : triangles) {
+    const Vec3 area = triangle.area_vector();
+    if (!(area.norm() > 0)) continue;
+    const Vec3 normal = area.normalized() * (topology.volume > 0 ? 1 : -1);
+    const double height = triangle.highest(normal);
+    if (std::any_of(corners.begin(), corners.end(), [&](const Vec3& each) { return normal.dot(each) > height + flat; }))
+      return {};
+    if (add_direction(solid.normals, normal, true)) solid.heights.push_back(height);
+    triangle.for_each_edge([&](const Vec3& edge) { add_direction(solid.edges, edge, false); });
+  }
+  return solid;
+}
+
 }  // namespace
 
+std::vector<std::uint32_t> corner_numbers(std::span<const Triangle> triangles) {
+  const auto corner = [&](std::uint32_t i) -> const Vec3& { return triangles[i / 3].corners[i % 3]; };
+  std::vector<std::uint32_t> order(3 * triangles.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return comes_before(corner(a), corner(b)); });
+  std::vector<std::uint32_t> numbers(order.size());
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && corner(order[i]) != corner(order[i - 1])) ++number;
+    numbers[order[i]] = number;
+  }
+  return numbers;
+}
+
 MeshTopology topology_of(std::span<const Triangle> triangles) {
-  return topology_of(triangles, numbered_corners(triangles));
+  return topology_of(triangles, corner_numbers(triangles));
 }
 
 Mesh::Mesh(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
-  const std::vector<std::uint32_t> corners = numbered_corners(triangles_);
+  const std::vector<std::uint32_t> corners = corner_numbers(triangles_);
   topology_ = topology_of(triangles_, corners);
   surface_points_ = points_of_surfaces(triangles_, corners);
+  if (topology_.is_closed() && surface_points_.size() == 1 && triangles_.size() <= kMaxConvexTriangles)
+    convex_ = convex_solid(triangles_, topology_);
   build();
 }
 

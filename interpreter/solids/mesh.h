@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,12 +26,25 @@ struct MeshTopology {
   bool faces_outwards() const { return is_closed() && volume > 0; }
 };
 
+/// What a closed mesh without hollows encloses, as the corners and faces of a convex solid. Directions are unit
+/// vectors.
+struct ConvexSolid {
+  std::vector<geometry::Vec3> corners;
+  std::vector<geometry::Vec3> normals;  ///< Of the faces, outwards.
+  std::vector<double> heights;          ///< Of each face along its normal, mm.
+  std::vector<geometry::Vec3> edges;    ///< Directions in which two faces meet.
+  geometry::Vec3 middle = geometry::Vec3::Zero();
+};
+
 /// A surface of triangles, with a tree of boxes for fast distances. If the surface is closed, what it encloses is
 /// solid. Memory is proportional to the number of triangles: some 150 bytes for each, and
 /// 24 for each surface.
 class Mesh {
  public:
   static constexpr std::size_t kMaxTriangles = 1u << 30;
+
+  /// Meshes of more triangles are not asked whether they are convex.
+  static constexpr std::size_t kMaxConvexTriangles = 256;
 
   /// Corners are finite; at least one triangle, at most kMaxTriangles. Their order is not kept.
   explicit Mesh(std::vector<Triangle> triangles);
@@ -44,6 +58,8 @@ class Mesh {
 
   /// Whether a closed mesh encloses a point that is not on its surface. False for a mesh that is not closed.
   bool encloses(const geometry::Vec3& point) const;
+  /// Null unless the mesh is one closed convex surface of at most kMaxConvexTriangles triangles.
+  const ConvexSolid* convex() const { return convex_ ? &*convex_ : nullptr; }
 
  private:
   void split(std::size_t node, std::size_t first, std::size_t count);
@@ -53,7 +69,11 @@ class Mesh {
   std::vector<MeshNode> nodes_;
   MeshTopology topology_;
   std::vector<geometry::Vec3> surface_points_;
+  std::optional<ConvexSolid> convex_;
 };
+
+/// Each corner's number in the order of coordinates, three for each triangle; equal corners have the same.
+std::vector<std::uint32_t> corner_numbers(std::span<const Triangle> triangles);
 
 /// Examines triangles; takes time proportional to n log n.
 MeshTopology topology_of(std::span<const Triangle> triangles);

@@ -29,7 +29,7 @@ struct Separation {
 inline constexpr double kTouch = 1e-7;
 /// Difference of both bounds at which the search ends, mm.
 inline constexpr double kTight = 1e-7;
-/// How far overlap_depth() moves shapes apart beyond what separates them, mm.
+/// How far overlap() moves shapes apart beyond what separates them, mm.
 inline constexpr double kApart = 1e-3;
 inline constexpr int kMaxSearchSteps = 64;
 /// A gap that no shapes have: the search goes on to the end.
@@ -183,19 +183,22 @@ Separation separation(const A& a, const B& b, double sufficient) {
   return best;
 }
 
-/// How far two convex shapes that overlap must be moved apart: the length of a translation of A that surely separates
-/// them, mm. It is the shortest along the normals of both shapes, across an edge of each, and what a descent from the
-/// best of these finds. For boxes and triangles it is the shortest of all; that of round shapes may be shorter, never
-/// longer.
+/// A translation of A by `depth` against `direction` separates A from B.
+struct Overlap {
+  double depth = std::numeric_limits<double>::infinity();  ///< mm, not negative.
+  geometry::Vec3 direction = geometry::Vec3(0, 0, 1);      ///< Unit vector.
+};
+
+/// How far two convex shapes that overlap must be moved apart. It is the shortest along the normals of both shapes,
+/// across an edge of each, and what a descent from the best of these finds. For boxes and triangles it is the shortest
+/// of all; that of round shapes may be shorter, never longer.
 template <class A, class B>
-double overlap_depth(const A& a, const B& b) {
-  double depth = std::numeric_limits<double>::infinity();
-  geometry::Vec3 best(0, 0, 1);
+Overlap overlap(const A& a, const B& b) {
+  Overlap best;
   const auto consider = [&](const geometry::Vec3& n) {
     const double needed = a.highest(n) - b.lowest(n);
-    if (!(needed < depth)) return false;
-    depth = needed;
-    best = n;
+    if (!(needed < best.depth)) return false;
+    best = {needed, n};
     return true;
   };
   const auto consider_both = [&](const geometry::Vec3& n) {
@@ -213,10 +216,11 @@ double overlap_depth(const A& a, const B& b) {
   // Moved apart along the best direction so far, the shapes are mostly nearest to each other along a better one.
   constexpr int kRounds = 8;
   for (int i = 0; i < kRounds; ++i) {
-    const Separation apart = separation(a.moved(-(depth + kApart) * best), b, kExactGap);
+    const Separation apart = separation(a.moved(-(best.depth + kApart) * best.direction), b, kExactGap);
     if (apart.overlaps() || !consider(apart.direction)) break;
   }
-  return std::max(depth, 0.0);
+  best.depth = std::max(best.depth, 0.0);
+  return best;
 }
 
 }  // namespace isocnc::solids

@@ -6,6 +6,7 @@
 
 #include "interpreter/solids/clearance.h"
 #include "interpreter/solids/convex_clearance.h"
+#include "interpreter/solids/hulls.h"
 
 // Distances between two of the solids that obstacles are made of.
 
@@ -50,7 +51,11 @@ Clearance convex_to_mesh(const detail::RoundedShape<Convex>& body, const Mesh& m
     detail::MeshSearch(mesh, body, enough).run(nearest);
     return nearest;
   };
-  const Clearance nearest = to_surface(sufficient);
+  Clearance nearest = to_surface(sufficient);
+  if (nearest.upper < 0 && mesh.convex()) {
+    const detail::PlacedConvexMesh solid(mesh, Placement::Identity());
+    nearest.lower = nearest.upper = -(overlap(body.core, solid).depth + body.rounding);
+  }
   if (!(nearest.lower > 0 && mesh.encloses(body.core.middle()))) return nearest;
   return detail::enclosed(nearest, sufficient, [&] { return to_surface(kExact); });
 }
@@ -156,6 +161,12 @@ bool encloses_any(const Mesh& mesh, const Mesh& other, const Placement& of_other
   return std::any_of(points.begin(), points.end(), [&](const Vec3& point) { return mesh.encloses(of_other * point); });
 }
 
+/// Whether both are convex, with so few edges that each may be tried with each.
+bool have_few_edges(const ConvexSolid* moving, const ConvexSolid* obstacle) {
+  constexpr std::size_t kMaxPairs = 4096;
+  return moving && obstacle && moving->edges.size() * obstacle->edges.size() <= kMaxPairs;
+}
+
 template <class Moving, class Obstacle>
 Clearance exact(const Moving& moving, const Placement& at, const Obstacle& obstacle, double sufficient) {
   return detail::between(detail::rounded(moving.placed(at)), at_rest(obstacle), sufficient);
@@ -177,7 +188,11 @@ Clearance exact(const Mesh& moving, const Placement& at, const Obstacle& obstacl
 }
 
 Clearance exact(const Mesh& moving, const Placement& at, const Mesh& obstacle, double sufficient) {
-  const Clearance nearest = MeshPairSearch(moving, at, obstacle, sufficient).run();
+  Clearance nearest = MeshPairSearch(moving, at, obstacle, sufficient).run();
+  if (nearest.upper < 0 && have_few_edges(moving.convex(), obstacle.convex())) {
+    const detail::PlacedConvexMesh solid(obstacle, Placement::Identity());
+    nearest.lower = nearest.upper = -overlap(detail::PlacedConvexMesh(moving, at), solid).depth;
+  }
   if (!(nearest.lower > 0)) return nearest;
   if (!encloses_any(obstacle, moving, at) && !encloses_any(moving, obstacle, at.inverse())) return nearest;
   return detail::enclosed(nearest, sufficient, [&] { return MeshPairSearch(moving, at, obstacle, kExact).run(); });

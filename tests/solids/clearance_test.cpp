@@ -11,13 +11,12 @@ namespace {
 
 using scenes::body;
 using scenes::Random;
+using scenes::upright;
 using scenes::Vec3;
 
 constexpr double kExactly = 2e-6;
 
 const Cuboid kBlock{{0, 0, 0}, {100, 60, 20}};
-
-AxisPlacement upright(double x, double y, double z) { return {{x, y, z}, {0, 0, 1}}; }
 
 TEST(Clearance, OfACylinderAboveABlockIsItsHeight) {
   const Clearance found = clearance(body(flat_body(10, 80)), upright(50, 30, 33), kBlock);
@@ -149,8 +148,55 @@ TEST(Clearance, OfAMeshGrowsWithTheDepth) {
     for (const double length : {20.0, 100.0})
       for (const RevolvedBody& tool : {body(flat_body(5, length)), body(ball_body(5, length))})
         EXPECT_NEAR(clearance(tool, upright(0, 0, -depth), mesh).upper, -depth, kExactly) << depth << " " << length;
-  // Through all of it: the middle is deepest.
-  EXPECT_NEAR(clearance(body(flat_body(5, 200)), upright(0, 0, -120), mesh).upper, -40, kExactly);
+  // Through all of it: out to the side.
+  EXPECT_NEAR(clearance(body(flat_body(5, 200)), upright(0, 0, -120), mesh).upper, -105, kExactly);
+}
+
+/// How far all of a tool must go back, whichever of its pieces is deepest, in a box and in its mesh.
+TEST(Clearance, OfAToolIsThatOfAllItsPieces) {
+  const Cuboid block{{-100, -100, -80}, {100, 100, 0}};
+  const std::vector<StackRow> rows = {{6, 10, 20}, {30, 20, 20}, {30, 50, 50}};
+  for (const RevolvedBody& tool :
+       {body(drill_body(5, 118, 60)), body(ball_body(10, 60)), body(bull_body(6, 2, 60)), body(cone_body(8, 1, 60, 60)),
+        body(stacked_body(rows, 0)), body(form_body(std::vector<FormPoint>{{0, 0}, {4, 8}, {9, 3}, {20, 6}, {60, 6}}))})
+    for (const double depth : {1.0, 5.0, 17.0, 40.0}) {
+      EXPECT_NEAR(clearance(tool, upright(0, 0, -depth), block).upper, -depth, kExactly) << depth;
+      EXPECT_NEAR(clearance(tool, upright(0, 0, -depth), Mesh(scenes::box_triangles(block))).upper, -depth, kExactly);
+    }
+  // The neck is in a plate that the wider end is below: the end must come out as well.
+  const std::vector<FormPoint> hook = {{0, 8}, {4, 8}, {4, 3}, {60, 3}};
+  EXPECT_NEAR(clearance(body(form_body(hook)), upright(0, 0, -30), Cuboid{{-100, -100, -20}, {100, 100, 0}}).upper, -30,
+              kExactly);
+}
+
+/// A tool on a straight way comes as near as in the nearest of many places on it.
+TEST(Clearance, OfAWayIsThatOfItsNearestPlace) {
+  for (const std::uint64_t seed : support::seeds(600)) {
+    Random random(seed);
+    const RevolvedBody tool = scenes::any_body(random);
+    const AxisPlacement from{scenes::any_point(random, 400), scenes::any_direction(random)};
+    const Vec3 way = scenes::any_point(random, 200);
+    const Cuboid box = scenes::any_cuboid(random);
+    const Cylinder pin = scenes::any_cylinder(random);
+    const Mesh ball(scenes::bumpy_ball(scenes::any_point(random, 200), random.real(5, 100), 6, 0.05));
+    const auto expect_nearest = [&](const auto& obstacle) {
+      constexpr int kPlaces = 200;
+      double nearest = kExact;
+      for (int i = 0; i <= kPlaces; ++i)
+        nearest = std::min(nearest, clearance(tool, {from.origin + way * i / kPlaces, from.axis}, obstacle).lower);
+      const double found = way_clearance(tool, from, way, obstacle, kExact);
+      ASSERT_LE(found, std::max(nearest, 0.0) + kExactly) << seed;
+      if (nearest > 0 && !(found <= 0)) {
+        ASSERT_GE(found, nearest - way.norm() / kPlaces / 2 - kExactly) << seed;
+      }
+      const double enough = random.real(0, 100);
+      ASSERT_EQ(way_clearance(tool, from, way, obstacle, enough) >= enough, found >= enough) << seed;
+    };
+    expect_nearest(box);
+    expect_nearest(pin);
+    if (!ball.encloses(from.at(tool.middle()))) expect_nearest(ball);
+    if (testing::Test::HasFatalFailure()) return;
+  }
 }
 
 /// A mesh of a box is as far away as the box.
@@ -166,6 +212,9 @@ TEST(Clearance, OfAMeshIsThatOfTheSolid) {
       ASSERT_NEAR(solid.lower, mesh.lower, 1e-6) << seed;
     }
     ASSERT_EQ(solid.upper <= 0, mesh.upper <= 0) << seed;
+    if (solid.upper < 0) {
+      ASSERT_NEAR(solid.upper, mesh.upper, 1e-3) << seed;
+    }
   }
 }
 

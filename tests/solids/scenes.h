@@ -20,6 +20,8 @@ inline constexpr double kSceneError = 1e-9;  ///< By so much the construction of
 
 inline RevolvedBody body(const BodyOrProblem& made) { return std::get<RevolvedBody>(made); }
 
+inline AxisPlacement upright(double x, double y, double z) { return {{x, y, z}, {0, 0, 1}}; }
+
 inline Vec3 any_direction(Random& random) {
   const double z = random.real(-1, 1);
   const double angle = random.real(0, 2 * std::numbers::pi);
