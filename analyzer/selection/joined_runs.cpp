@@ -1,6 +1,7 @@
 #include "analyzer/selection/joined_runs.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <utility>
 
@@ -28,6 +29,20 @@ JoinedRuns::Identity JoinedRuns::identity_of(const RunFinding& each) {
           is_of_joint ? finding.values[2] : 0};  // The end of its travel.
 }
 
+/// Whether one of two findings that are the same tells something worse: a contact that is deeper, or a near miss that
+/// is nearer.
+static bool is_worse(const syntax::Finding& a, const syntax::Finding& b) {
+  constexpr std::array kByDepth = {"hits-fixture"_diag,
+                                   "hits-machine"_diag,
+                                   "gouges-part"_diag,
+                                   "rapid-in-material"_diag,
+                                   "holder-in-material"_diag,
+                                   "cut-too-deep"_diag,
+                                   "cuts-with-spindle-stopped"_diag};
+  if (a.id == "near-miss"_diag) return a.values[0] < b.values[0];
+  return std::find(kByDepth.begin(), kByDepth.end(), a.id) != kByDepth.end() && a.values[0] > b.values[0];
+}
+
 void JoinedRuns::add(RunOutcome outcome) {
   const RunSet run = RunSet{1} << joined_.runs.size();
   joined_.has_scene = outcome.has_scene;
@@ -48,6 +63,11 @@ void JoinedRuns::add(RunOutcome outcome) {
     }
     if (is_of_earlier_run) {
       found_by_[known->second] |= run;
+      RunFinding& earlier = joined_.findings[known->second];
+      if (is_worse(each.finding, earlier.finding)) {
+        earlier.finding = each.finding;
+        earlier.shaped_by = each.shaped_by;
+      }
       continue;
     }
     joined_.findings.push_back(std::move(each));

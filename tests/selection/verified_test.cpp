@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/solids/tool_shapes.h"
 #include "tests/support/random.h"
 
 namespace isocnc::selection {
@@ -129,6 +130,26 @@ TEST(Verified, FindsWhatEachValueOfVgplShows) {
 }
 
 /// What the first run shows comes out as it would alone.
+/// What several paths hit on the same line is one contact, as deep as on the worst of them, and a near miss as near.
+TEST(Verified, TellsTheDeepestContactOfAllPaths) {
+  constexpr execution::ToolCode kTool{1, 1, 1};
+  verification::Scene scene;
+  scene.clearance = 2;
+  scene.tools[kTool] = {.length = 100, .cutter = std::get<solids::RevolvedBody>(solids::flat_body(5, 60))};
+  scene.setup.push_back({.name = "clamp", .shape = solids::Cuboid{{90, -100, 0}, {110, 100, 30}}});
+  scene.setup.push_back({.name = "post", .shape = solids::Cuboid{{290, -100, 0}, {310, 100, 18}}});
+  simulation::TimedMachine machine;
+  machine.motion = simulation::unbounded_machine();
+  machine.tool_lengths[kTool] = 100;
+  const VerifiedRun run = verified_on_paths(
+      "M06 T101001\nG00 Z100\nX0 Y0\nZ27\nIF VGPL = 0 GOTO N3\nZ20\nIF VGPL = 1 GOTO N3\nZ19\nN3 X200\nX400\nM02\n", {},
+      machine, &scene);
+  ASSERT_EQ(run.outcome.runs.size(), 3u);
+  std::vector<std::pair<std::size_t, double>> amounts;
+  for (const RunFinding& each : run.outcome.findings) amounts.emplace_back(each.line + 1, each.finding.values[0]);
+  EXPECT_EQ(amounts, (std::vector<std::pair<std::size_t, double>>{{9, 11}, {10, 1}}));
+}
+
 TEST(Verified, AddsNothingWhereNoJumpComparesVgpl) {
   const std::string program = "M06 T101001\nV1=3\nIF V1 > 2 GOTO N5\nX150\nN5 G00 X150\nM02\n";
   const RunOutcome alone = simulation::outcome_of_run(program, {}, limited_machine());
