@@ -6,6 +6,7 @@
 
 #include "interpreter/configuration/tool_bodies.h"
 #include "interpreter/system/paths.h"
+#include "interpreter/verification/body_pairs.h"
 #include "interpreter/verification/surroundings.h"
 
 namespace isocnc::configuration {
@@ -62,9 +63,13 @@ class BodyMaker {
                       .described = described(file_, body.place)});
   }
 
-  void add(const DescribedTarget& target, std::vector<SceneBody>& bodies) const {
+  void add(const DescribedTarget& target, Scene& scene) const {
     const DescribedShape shape{.box = {}, .cylinder = {}, .mesh = target.mesh, .at = target.at};
-    add(DescribedBody{.name = {}, .shape = shape, .place = target.place}, BodyRole::Target, bodies);
+    const std::size_t others = scene.setup.size();
+    add(DescribedBody{.name = {}, .shape = shape, .place = target.place}, BodyRole::Target, scene.setup);
+    scene.target_tolerance = target.tolerance;
+    if (scene.setup.size() > others)
+      scene.setup.back().core = verification::core_of_target(scene.setup.back().shape, target.tolerance);
   }
 
   void add(const DescribedStock& stock, Scene& scene) const {
@@ -131,7 +136,19 @@ static void add_machine(const MachineConfiguration& machine, const ShapeSource& 
   }
   const BodyMaker maker(machine.file, machine.folder, shapes);
   for (const DescribedBody& body : machine.bodies) maker.add(body, BodyRole::Machine, scene.machine);
-  scene.touching = verification::touching_at_home(scene, machine.timed);
+}
+
+static void add_setup(const LocatedSetup& located, const ShapeSource& shapes, Scene& scene) {
+  const DescribedSetup& setup = located.setup;
+  scene.name = system::generic_name(located.file);
+  scene.is_in_workpiece_frame = setup.frame == "workpiece";
+  scene.clearance = setup.clearance;
+  scene.resolution = setup.resolution;
+  const BodyMaker maker(located.file, located.folder, shapes);
+  for (const DescribedBody& fixture : setup.fixtures) maker.add(fixture, BodyRole::Fixture, scene.setup);
+  if (setup.spoilboard) maker.add(*setup.spoilboard, scene.setup);
+  if (setup.target) maker.add(*setup.target, scene);
+  if (setup.stock) maker.add(*setup.stock, scene);
 }
 
 Scene make_scene(const MachineConfiguration& machine, const std::optional<LocatedSetup>& located,
@@ -140,20 +157,8 @@ Scene make_scene(const MachineConfiguration& machine, const std::optional<Locate
   add_machine(machine, shapes, scene);
   scene.name = system::generic_name(machine.file);
   scene.has_setup = located.has_value();
-  if (!located) return scene;
-  const DescribedSetup& setup = located->setup;
-  scene.name = system::generic_name(located->file);
-  scene.is_in_workpiece_frame = setup.frame == "workpiece";
-  scene.clearance = setup.clearance;
-  scene.resolution = setup.resolution;
-  const BodyMaker maker(located->file, located->folder, shapes);
-  for (const DescribedBody& fixture : setup.fixtures) maker.add(fixture, BodyRole::Fixture, scene.setup);
-  if (setup.spoilboard) maker.add(*setup.spoilboard, scene.setup);
-  if (setup.target) {
-    scene.target_tolerance = setup.target->tolerance;
-    maker.add(*setup.target, scene.setup);
-  }
-  if (setup.stock) maker.add(*setup.stock, scene);
+  if (located) add_setup(*located, shapes, scene);
+  scene.at_home = verification::neighbors_at_home(scene, machine.timed);
   return scene;
 }
 

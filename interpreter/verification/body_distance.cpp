@@ -39,18 +39,30 @@ static solids::Clearance with_surface_point(const BodyShape& shape, solids::Clea
   return found;
 }
 
-solids::Clearance distance_to(const BodyShape& shape, const solids::RevolvedBody& body, const solids::AxisPlacement& at,
+solids::Clearance distance_of(const BodyPair& pair, const Obstacle& obstacle, const solids::AxisPlacement& at,
                               double sufficient) {
-  return with_surface_point(
-      shape, with_solid(shape, [&](const auto& obstacle) { return clearance(body, at, obstacle, sufficient); }));
+  if (pair.core) return clearance(*pair.revolved, at, *pair.core, sufficient);
+  return with_surface_point(obstacle.shape, with_solid(obstacle.shape, [&](const auto& solid) {
+                              return clearance(*pair.revolved, at, solid, sufficient);
+                            }));
 }
 
-solids::Clearance distance_to(const BodyShape& shape, const BodyShape& body, const solids::Placement& at,
+solids::Clearance distance_of(const MovingPart& part, const Obstacle& obstacle, const solids::Placement& at,
                               double sufficient) {
-  return with_surface_point(
-      shape, with_solid(shape, [&](const auto& obstacle) {
-        return with_solid(body, [&](const auto& moving) { return clearance(moving, at, obstacle, sufficient); });
-      }));
+  return with_surface_point(obstacle.shape, with_solid(obstacle.shape, [&](const auto& solid) {
+                              return with_solid(part.body->shape, [&](const auto& moving) {
+                                return clearance(moving, at, solid, sufficient);
+                              });
+                            }));
+}
+
+double way_clearance_of(const BodyPair& pair, const Obstacle& obstacle, const solids::AxisPlacement& from,
+                        const Vec3& way, double sufficient) {
+  if (pair.core)
+    return pair.core->faces() ? way_clearance(*pair.revolved, from, way, *pair.core->faces(), sufficient)
+                              : solids::kExact;
+  return with_solid(obstacle.shape,
+                    [&](const auto& solid) { return way_clearance(*pair.revolved, from, way, solid, sufficient); });
 }
 
 }  // namespace isocnc::verification

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "interpreter/solids/clearance.h"
-#include "interpreter/verification/scene.h"
+#include "interpreter/verification/body_pairs.h"
 
 namespace isocnc::verification {
 
@@ -17,12 +17,18 @@ auto with_solid(const BodyShape& shape, Use&& use) {
   return use(*std::get<std::shared_ptr<const solids::Mesh>>(shape));
 }
 
-// Distances to a shape, of a body that is at `at` in the shape's frame; `sufficient` as in solids::clearance(). The
-// point of the obstacle is one of its surface.
+// Distances between the bodies of a pair, as solids::clearance() has them, with the moving part at `at` in the frame of
+// the obstacle's shape. The point of the obstacle is one of its surface.
 
-solids::Clearance distance_to(const BodyShape& shape, const solids::RevolvedBody& body, const solids::AxisPlacement& at,
+/// Of a part of the tool or the nose.
+solids::Clearance distance_of(const BodyPair& pair, const Obstacle& obstacle, const solids::AxisPlacement& at,
                               double sufficient);
-solids::Clearance distance_to(const BodyShape& shape, const BodyShape& body, const solids::Placement& at,
+/// Of another part.
+solids::Clearance distance_of(const MovingPart& part, const Obstacle& obstacle, const solids::Placement& at,
                               double sufficient);
+
+/// A lower bound of the distance on a straight way of a part of the tool or the nose, as solids::way_clearance().
+double way_clearance_of(const BodyPair& pair, const Obstacle& obstacle, const solids::AxisPlacement& from,
+                        const geometry::Vec3& way, double sufficient);
 
 }  // namespace isocnc::verification

@@ -18,6 +18,9 @@ namespace {
 /// part.
 constexpr double kSlack = 0.03;  // mm; above kContactDistance, so that such a motion is soon proven to be clear.
 
+/// How deep in the target a cutter is in contact with it, mm.
+double depth_below(double tolerance) { return tolerance + kSlack; }
+
 /// What a part is called, with a place for the name of its tool.
 dialect::Text name_of(ToolPart part) {
   switch (part) {
@@ -122,10 +125,14 @@ class PairsMaker {
     const bool is_own = carries_spindle(obstacle.on);
     if (part.revolved) return !(is_own && part.of_spindle == ToolPart::Nose);
     if (carries_spindle(part.on) ? is_own : obstacle.on != Link::Machine) return false;
-    const auto are_these = [&](const TouchingBodies& each) {
+    return !are_among(scene_.at_home.touching, part, obstacle);
+  }
+
+  /// Whether two bodies are of a list.
+  bool are_among(const std::vector<MachineBodies>& list, const MovingPart& part, const Obstacle& obstacle) const {
+    return std::any_of(list.begin(), list.end(), [&](const MachineBodies& each) {
       return part.body == &scene_.machine[each.moving] && obstacle.body == &scene_.machine[each.other];
-    };
-    return std::none_of(scene_.touching.begin(), scene_.touching.end(), are_these);
+    });
   }
 
   void add_pair(std::size_t part_index, std::size_t obstacle_index) {
@@ -134,17 +141,24 @@ class PairsMaker {
     if (!may_meet(part, obstacle)) return;
     BodyPair pair{.part = part_index, .obstacle = obstacle_index, .revolved = part.revolved, .limit = kContactDistance};
     if (obstacle.body->role == BodyRole::Target && part.of_spindle == ToolPart::Cutter) {
-      const double depth = scene_.target_tolerance + kSlack;
-      std::optional<solids::RevolvedBody> reduced = part.revolved->reduced(depth);
+      const double depth = depth_below(scene_.target_tolerance);
       pair.slack = kSlack;
+      if (obstacle.body->core) {
+        pair.core = obstacle.body->core.get();
+        add(pair, part, obstacle);
+        pair.core = nullptr;
+      }
+      // Where the part is thin, nothing of it is deep, but the part is deep in the cutter.
+      std::optional<solids::RevolvedBody> reduced = part.revolved->reduced(depth);
       // Of a thin cutter nothing remains, and of a pointed one not its point: it counts how deep they are.
       constexpr double kRounding = 1e-6;
       if (!reduced || reduced->bottom() > part.revolved->bottom() + depth + kRounding) {
-        pair.allowed = depth;
-        bound(part, obstacle, pair);
-        result_.pairs.push_back(pair);
+        if (!obstacle.body->core) {
+          pair.allowed = depth;
+          add(pair, part, obstacle);
+          pair.allowed = 0;
+        }
         if (!reduced) return;
-        pair.allowed = 0;
       }
       pair.revolved = &result_.reduced.emplace_back(*std::move(reduced));
     }
@@ -152,14 +166,17 @@ class PairsMaker {
       pair.slack = kSlack;
     const bool is_cutting = part.of_spindle == ToolPart::Cutter || part.of_spindle == ToolPart::Shank;
     const BodyRole role = obstacle.body->role;
-    // Bodies of a machine pass one another closely by design.
-    const bool is_of_machine = role == BodyRole::Machine && part.body && part.body->role == BodyRole::Machine;
-    pair.is_watched = role == BodyRole::Fixture || (role == BodyRole::Machine && !is_of_machine) ||
+    pair.is_watched = role == BodyRole::Fixture ||
+                      (role == BodyRole::Machine && !are_among(scene_.at_home.near, part, obstacle)) ||
                       (role == BodyRole::Spoilboard && !is_cutting);
     if (pair.is_watched && scene_.clearance > kContactDistance) {
       pair.limit = scene_.clearance;
       pair.reports_near = true;
     }
+    add(pair, part, obstacle);
+  }
+
+  void add(BodyPair pair, const MovingPart& part, const Obstacle& obstacle) {
     bound(part, obstacle, pair);
     result_.pairs.push_back(pair);
   }
@@ -238,6 +255,12 @@ GivenName part_name(ToolPart part, const std::string& tool) {
   const dialect::Text name = name_of(part);
   return GivenName::of({dialect::format(name, dialect::Language::English, tool),
                         dialect::format(name, dialect::Language::Italian, tool)});
+}
+
+std::shared_ptr<const solids::InnerSurface> core_of_target(const BodyShape& shape, double tolerance) {
+  const auto* const mesh = std::get_if<std::shared_ptr<const solids::Mesh>>(&shape);
+  if (!mesh || !(*mesh)->topology().faces_outwards()) return nullptr;
+  return std::make_shared<const solids::InnerSurface>(*mesh, depth_below(tolerance));
 }
 
 BodyPairs pairs_of(const Scene& scene, const kinematics::Kinematics& kinematics, const MountedTool& tool,

@@ -47,6 +47,7 @@ struct BodyPair {
   std::size_t part = 0;
   std::size_t obstacle = 0;
   const solids::RevolvedBody* revolved = nullptr;  ///< The part's, or what counts of it; null for other bodies.
+  const solids::InnerSurface* core = nullptr;      ///< What counts of the obstacle, if that is not its shape.
   double limit = 0;            ///< What comes nearer is looked at, mm: at least the contact distance.
   bool reports_near = false;   ///< Whether coming nearer than `limit` without a contact is reported (W154).
   bool is_watched = false;     ///< Whether the part should keep away from the obstacle at all.
@@ -97,6 +98,9 @@ struct MountedTool {
 
 /// How messages call a part of a tool (`T101001`), or the nose.
 dialect::GivenName part_name(removal::ToolPart part, const std::string& tool);
+
+/// What no cutter may reach of a target with this tolerance, mm. Null unless the shape is a closed mesh.
+std::shared_ptr<const solids::InnerSurface> core_of_target(const BodyShape& shape, double tolerance);
 
 /// `origin` is that of the setup's frame, in the machine frame. The result refers to the scene.
 BodyPairs pairs_of(const Scene& scene, const kinematics::Kinematics& kinematics, const MountedTool& tool,

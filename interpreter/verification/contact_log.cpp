@@ -108,7 +108,9 @@ void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
 
 void ContactLog::take_near(Episode& episode, const Visit& visit) const {
   const Encounter& encounter = visit.encounter;
-  if (episode.is_open && !(encounter.distance < episode.contact.distance)) return;
+  // Where one stretch ends and the next begins, the distance is the same but for rounding.
+  constexpr double kSame = 1e-5;  // mm
+  if (episode.is_open && !(encounter.distance < episode.contact.distance - kSame)) return;
   episode.is_open = true;
   Contact& contact = episode.contact;
   contact = visit.contact;

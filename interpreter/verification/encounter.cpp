@@ -254,8 +254,11 @@ class Examination {
       course.plane = plane_between(pair, begin);
       if (is_beyond_plane()) return;
     }
-    std::optional<Encounter> encounter = search(places, course, rate, begin);
     const Clearance end = distance(places.end(), pair.limit + kAhead * travel);
+    std::optional<Encounter> encounter;
+    if (!is_nearest_at_an_end(places, pair, begin, end)) encounter = search(places, course, rate, begin);
+    // A motion that stops near an obstacle comes nearest to it there.
+    if (pair.reports_near) take_ends(places, course, begin, end, encounter);
     // Where both rest in contact, each stretch belongs to it.
     const double margin = end.lower - pair.limit;
     if (encounter) {
@@ -274,9 +277,35 @@ class Examination {
     // A search that ended early between bodies that overlap would not show how deep they do.
     const double enough = pair.allowed > 0 ? std::max(0.0, sufficient - pair.allowed) : sufficient;
     if (pair.revolved)
-      return pair.counted(
-          distance_to(obstacle.shape, *pair.revolved, places.tool_at(s, part.offset, obstacle), enough));
-    return distance_to(obstacle.shape, part.body->shape, places.body_at(s, part, obstacle), sufficient);
+      return pair.counted(verification::distance_of(pair, obstacle, places.tool_at(s, part.offset, obstacle), enough));
+    return verification::distance_of(part, obstacle, places.body_at(s, part, obstacle), sufficient);
+  }
+
+  /// Whether a tool that shifts along a straight line touches nothing on its way, and comes nowhere nearer than at an
+  /// end, within the tolerance of near misses: all that it covers is one convex body for each of its pieces.
+  bool is_nearest_at_an_end(StretchPlaces& places, const BodyPair& pair, const Clearance& begin,
+                            const Clearance& end) const {
+    const double nearest = std::min(begin.lower, end.lower);
+    if (!pair.revolved || pair.allowed > 0 || !places.is_straight_shift() || !(nearest > kContactDistance))
+      return false;
+    const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
+    const double offset = bodies_.parts[pair.part].offset;
+    const solids::AxisPlacement from = places.tool_at(places.begin(), offset, obstacle);
+    const Vec3 way = places.tool_at(places.end(), offset, obstacle).origin - from.origin;
+    const double needed =
+        pair.reports_near ? std::max(kContactDistance, std::min(pair.limit, nearest - kNearTolerance)) : pair.limit;
+    return way_clearance_of(pair, obstacle, from, way, needed) >= needed;
+  }
+
+  /// Takes the ends of a stretch that are nearer than the limit.
+  void take_ends(const StretchPlaces& places, const PairCourse& course, const Clearance& begin, const Clearance& end,
+                 std::optional<Encounter>& encounter) const {
+    const BodyPair& pair = *course.pair;
+    if (!(std::min(begin.upper, end.upper) < pair.limit)) return;
+    if (!encounter)
+      encounter = {.stretch = index_, .pair = course.index, .distance = std::numeric_limits<double>::infinity()};
+    take_nearest(places, pair, places.begin(), begin, *encounter);
+    take_nearest(places, pair, places.end(), end, *encounter);
   }
 
   /// The gap between both bodies along one direction, which bounds their distance wherever it is not negative.
@@ -467,7 +496,7 @@ class Examination {
                     Encounter& encounter) const {
     const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
     const double nearest = clearance.upper - pair.slack;
-    if (!(nearest < encounter.distance)) return;
+    if (!(nearest < encounter.distance - solids::kRounding)) return;
     encounter.distance = nearest;
     encounter.nearest_time = places.time_at(s);
     encounter.point = places.on_workpiece(s, clearance.on_obstacle + obstacle.shift, obstacle.on);

@@ -12,6 +12,7 @@
 #include "interpreter/dialect/given_name.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/kinematics/links.h"
+#include "interpreter/solids/inner_surface.h"
 #include "interpreter/solids/mesh.h"
 #include "interpreter/solids/obstacle.h"
 #include "interpreter/solids/revolved_body.h"
@@ -44,6 +45,8 @@ struct SceneBody {
   BodyShape shape;
   BodyDescription described;
   bool is_endless = false;  ///< It has no ends that are known: the shape is only large.
+  /// Of a target: what no cutter may reach (core_of_target()). Null unless the shape is a closed mesh.
+  std::shared_ptr<const solids::InnerSurface> core;
 };
 
 /// The bodies of a tool: z = 0 at the tip, growing to the spindle nose at z = `length`, mm.
@@ -57,11 +60,17 @@ struct ToolBodies {
 };
 
 /// Two bodies of a machine, as indices into Scene::machine.
-struct TouchingBodies {
+struct MachineBodies {
   std::size_t moving = 0;
   std::size_t other = 0;
 
-  friend bool operator==(const TouchingBodies&, const TouchingBodies&) = default;
+  friend bool operator==(const MachineBodies&, const MachineBodies&) = default;
+};
+
+/// Bodies of a machine that are made to be near each other, as they are where it stands at home.
+struct NeighborsAtHome {
+  std::vector<MachineBodies> touching;  ///< As a gantry and its rails: they are not compared.
+  std::vector<MachineBodies> near;      ///< Nearer than Scene::clearance: they have no near misses.
 };
 
 /// What surrounds a program: the bodies that a motion may bring together. A value, immutable once made; meshes are
@@ -70,8 +79,7 @@ struct Scene {
   std::map<execution::ToolCode, ToolBodies> tools;
   std::optional<solids::RevolvedBody> nose;  ///< z = 0 at the spindle nose, growing away from the tool.
   std::vector<SceneBody> machine;            ///< Bodies of the machine.
-  /// Those that are made to touch each other, as a gantry and its rails (touching_at_home()): they are not compared.
-  std::vector<TouchingBodies> touching;
+  NeighborsAtHome at_home;                   ///< What neighbors_at_home() has found.
   /// Bodies of the setup: fixtures, spoilboard, target, stock. They stand on the machine, or, on a table that turns, on
   /// the table; `on` is not used. Their frame is that of the first G92, or of the machine.
   std::vector<SceneBody> setup;

@@ -55,27 +55,32 @@ solids::Clearance distance_of(const BodyPair& pair, const BodyPairs& bodies, con
   Isometry3d place = link_pose(kinematics, obstacle.on, joints).inverse() * link_pose(kinematics, carrier, joints);
   const Vec3 origin = pair.revolved ? Vec3(0, 0, part.offset - bodies.tool_length) : part.shift;
   place.translation() = place * origin - obstacle.shift;
-  return pair.revolved
-             ? distance_to(obstacle.shape, *pair.revolved, {place.translation(), place.linear().col(2)}, sufficient)
-             : distance_to(obstacle.shape, part.body->shape, place, sufficient);
+  return pair.revolved ? distance_of(pair, obstacle, {place.translation(), place.linear().col(2)}, sufficient)
+                       : distance_of(part, obstacle, place, sufficient);
 }
 
 }  // namespace
 
-std::vector<TouchingBodies> touching_at_home(const Scene& scene, const simulation::TimedMachine& machine) {
+NeighborsAtHome neighbors_at_home(const Scene& scene, const simulation::TimedMachine& machine) {
   const kinematics::Kinematics& kinematics = machine.motion.kinematics;
   const kinematics::Coordinates joints = inverse(kinematics, kinematics::coordinates(machine.home), 0);
-  // Only bodies of the machine can touch so, wherever the setup is, and no tool is mounted.
+  // Only bodies of the machine are made to be so, wherever the setup is, and no tool is mounted.
   Scene bare;
   bare.machine = scene.machine;
   const BodyPairs bodies = pairs_of(bare, kinematics, {}, Vec3::Zero());
   const auto index_of = [&](const SceneBody* body) { return static_cast<std::size_t>(body - bare.machine.data()); };
-  std::vector<TouchingBodies> touching;
-  for (const BodyPair& pair : bodies.pairs)
-    if (distance_of(pair, bodies, kinematics, joints, kContactDistance).upper <= kContactDistance)
-      touching.push_back(
-          {.moving = index_of(bodies.parts[pair.part].body), .other = index_of(bodies.obstacles[pair.obstacle].body)});
-  return touching;
+  NeighborsAtHome found;
+  for (const BodyPair& pair : bodies.pairs) {
+    const double near = std::max(scene.clearance, kContactDistance);
+    const double distance = distance_of(pair, bodies, kinematics, joints, near).upper;
+    const MachineBodies both{.moving = index_of(bodies.parts[pair.part].body),
+                             .other = index_of(bodies.obstacles[pair.obstacle].body)};
+    if (distance <= kContactDistance)
+      found.touching.push_back(both);
+    else if (distance < near)
+      found.near.push_back(both);
+  }
+  return found;
 }
 
 std::vector<Neighbor> neighbors_at(const BodyPairs& bodies, const kinematics::Kinematics& kinematics,

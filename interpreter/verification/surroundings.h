@@ -10,8 +10,8 @@
 
 namespace isocnc::verification {
 
-/// The bodies of a machine that touch each other where it stands at home, as it does when a program starts.
-std::vector<TouchingBodies> touching_at_home(const Scene& scene, const simulation::TimedMachine& machine);
+/// The bodies of a machine that are near each other where it stands at home, as it does when a program starts.
+NeighborsAtHome neighbors_at_home(const Scene& scene, const simulation::TimedMachine& machine);
 
 /// An obstacle, and how near the machine is to it.
 struct Neighbor {

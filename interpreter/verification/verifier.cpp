@@ -26,11 +26,12 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
       machine_(machine),
       origin_(origin),
       work_together_(std::move(work_together)),
+      joints_(inverse(machine.motion.kinematics, kinematics::coordinates(machine.home), 0)),
       bodies_(pairs_of(scene, machine.motion.kinematics, {}, origin)) {
   certificate_.epsilon = kContactDistance / 2;
   certificate_.scene = scene.name;
   certificate_.has_setup = scene.has_setup;
-  for (const TouchingBodies& each : scene.touching)
+  for (const MachineBodies& each : scene.at_home.touching)
     certificate_.touching.emplace_back(scene.machine[each.moving].name, scene.machine[each.other].name);
   std::optional<removal::Workpiece> workpiece = workpiece_of(scene, origin, material);
   if (!workpiece) return;
@@ -67,11 +68,11 @@ MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& mac
           .length = machine.tool_length(tool)};
 }
 
-motion::Stretch rest_after(const motion::Stretch& stretch, const kinematics::Kinematics& kinematics, double tool_length,
-                           double time) {
+/// The machine as it stands at `time`.
+static motion::Stretch rest_at(const kinematics::Coordinates& joints, double tool_length, double time) {
   motion::Stretch rest{.start = time, .phase_count = 1};
   rest.path.is_of_joints = true;
-  rest.path.c[0] = stretch.at(kinematics, stretch.start + stretch.duration).joints;
+  rest.path.c[0] = joints;
   rest.path.tool_length = tool_length;
   return rest;
 }
@@ -84,10 +85,8 @@ void Verifier::mount(const execution::ToolCode& tool, const running::Event& even
   bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted, origin_);
   if (material_) material_->mount(tool, cutting_tool(scene_, mounted), event, time, frames_.back());
   // What the tool touches where it is mounted.
-  if (last_) {
-    stretches_.push_back(rest_after(*last_, machine_.motion.kinematics, mounted.length, time));
-    waiting_.push_back({.line = event.line, .frame = frames_.size() - 1, .is_in_inches = event.is_in_inches});
-  }
+  stretches_.push_back(rest_at(joints_, mounted.length, time));
+  waiting_.push_back({.line = event.line, .frame = frames_.size() - 1, .is_in_inches = event.is_in_inches});
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;
   if ((has_length && has_shape) || !known_gaps_.insert(tool).second) return;
@@ -126,7 +125,10 @@ void Verifier::examine_waiting() {
     }
   }
   examined_ += stretches_.size();
-  if (!stretches_.empty()) last_ = stretches_.back();
+  if (!stretches_.empty()) {
+    const motion::Stretch& last = stretches_.back();
+    joints_ = last.at(machine_.motion.kinematics, last.start + last.duration).joints;
+  }
   stretches_.clear();
   waiting_.clear();
   frames_ = {frames_.back()};

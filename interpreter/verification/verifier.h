@@ -56,12 +56,12 @@ class Verifier {
   WorkTogether work_together_;
   execution::ToolCode tool_;
   std::set<execution::ToolCode> known_gaps_;
+  kinematics::Coordinates joints_;  ///< At the end of the last stretch that has been examined.
   BodyPairs bodies_;
   std::vector<geometry::Frame> frames_ = {geometry::Frame()};  ///< Those of the stretches that wait.
   std::vector<motion::Stretch> stretches_;
   std::vector<WaitingStretch> waiting_;
-  std::size_t examined_ = 0;             ///< Stretches that have been examined.
-  std::optional<motion::Stretch> last_;  ///< The last one of them.
+  std::size_t examined_ = 0;  ///< Stretches that have been examined.
   ContactLog log_;
   std::optional<removal::MaterialCheck> material_;
   std::vector<Contact> contacts_;
@@ -70,10 +70,6 @@ class Verifier {
 
 /// A tool that a machine mounts, with its bodies in a scene. The result refers to the scene.
 MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool);
-
-/// The machine at the end of a stretch, with another tool, as it stands at `time`.
-motion::Stretch rest_after(const motion::Stretch& stretch, const kinematics::Kinematics& kinematics, double tool_length,
-                           double time);
 
 /// The origin of the first workpiece frame that a run sets (G92); machine frame, mm. 0 if it sets none.
 geometry::Vec3 first_workpiece_origin(std::string_view text, const running::RunOptions& options);

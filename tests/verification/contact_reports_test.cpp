@@ -78,8 +78,8 @@ TEST(ContactReports, WhatTheToolOrTheSetupTouchesAtTheStartIsReported) {
   shop.box("clamp", {0, -450, -200}, {50, -420, 0});
   const VerifiedRun run = shop.run("M06 T101001\nG00 X10 Y0 Z400\nM02\n");
   const std::vector<std::string> found = summaries(run);
-  EXPECT_NE(std::find(found.begin(), found.end(), "E152 2 gantry | clamp"), found.end());
-  EXPECT_NE(std::find(found.begin(), found.end(), "E153 2 the spindle nose | post"), found.end())
+  EXPECT_NE(std::find(found.begin(), found.end(), "E152 1 gantry | clamp"), found.end());
+  EXPECT_NE(std::find(found.begin(), found.end(), "E153 1 the spindle nose | post"), found.end())
       << fmt::format("{}", fmt::join(found, "\n"));
   EXPECT_TRUE(run.certificate->touching.empty());
 }
@@ -361,6 +361,10 @@ TEST(ContactReports, AToolChangeShowsWhatTheToolTouchesWhereItIsMounted) {
   EXPECT_EQ(summaries(shop.run(start + "G00 Z100\nM02\n")),
             std::vector<std::string>{"E152 3 the cutter of T101002 | clamp"});
   EXPECT_TRUE(summaries(shop.run("M06 T101001\nG00 X0 Y0 Z100\nM06 T101002\nM02\n")).empty());
+  // The first one is mounted at home, with the nose at Z400.
+  shop.box("post", {-10, -10, 280}, {10, 10, 320});
+  EXPECT_EQ(summaries(shop.run("M06 T101001\nG00 X500\nM02\n")),
+            std::vector<std::string>{"E152 1 the cutter of T101001 | post"});
 }
 
 /// Blanks and comments within a word mean nothing.

@@ -102,6 +102,67 @@ TEST(Contacts, NearMissIsNoContact) {
   EXPECT_EQ(told(shop.run("M06 T101001\nG00 X0 Y0 Z50\nZ32.1\nX200\nM02\n").contacts), "");
 }
 
+/// What comes near and goes back is told where it was nearest, with its line and its distance.
+TEST(Contacts, NearMissOfAnApproachIsToldWhereItEnds) {
+  Shop shop;
+  shop.box("clamp 1", {100, -20, 0}, {140, 20, 30});
+  for (const double gap : {0.1, 1.0, 1.9, 1.98, 1.999}) {
+    const VerifiedRun run =
+        shop.run(fmt::format("M06 T101001\nG00 X120 Y0 Z50\nG01 Z{} F1000 G09\nG00 Z50\nM02\n", 30 + gap));
+    ASSERT_EQ(run.contacts.size(), 1u) << gap;
+    EXPECT_EQ(run.contacts[0].line, 2u);
+    EXPECT_NEAR(run.contacts[0].distance, gap, 1e-5);
+  }
+  EXPECT_EQ(told(shop.run("M06 T101001\nG00 X120 Y0 Z50\nG01 Z32.001 F1000 G09\nG00 Z50\nM02\n").contacts), "");
+}
+
+/// However long a tool passes an obstacle, and however near, a straight pass is proven.
+TEST(Contacts, LongPassesAreProven) {
+  Shop shop;
+  shop.box("rail", {0, -20, 0}, {4000, 20, 30});
+  shop.box("", {0, 100, 0}, {4000, 300, 30}, BodyRole::Target).shape = mesh_of({{0, 100, 0}, {4000, 300, 30}});
+  const VerifiedRun above = shop.run("M06 T101001\nG00 X-50 Y0 Z30.03\nG01 X3500 F5000\nG00 Z100\nM02\n");
+  EXPECT_EQ(told(above.contacts), "W154 3-3 the cutter of T101001 | rail 0.0\n");
+  EXPECT_TRUE(above.certificate->gaps.empty());
+  const VerifiedRun beside = shop.run("M06 T101001\nG00 X-50 Y90 Z5\nG01 X3500 F5000\nG00 Z100\nM02\n");
+  EXPECT_EQ(told(beside.contacts), "");
+  EXPECT_TRUE(beside.certificate->gaps.empty());
+}
+
+/// How deep a flat cutter goes into a slope is measured across the slope, by its rim.
+TEST(Contacts, GougesOfASlopeCountAcrossIt) {
+  const auto corner = [](double x, double y) { return Vec3(x, y, x); };
+  const Vec3 a = corner(0, 0);
+  const Vec3 b = corner(200, 0);
+  const Vec3 c = corner(200, 200);
+  const Vec3 d = corner(0, 200);
+  const Vec3 low(200, 0, 0);
+  const Vec3 far(200, 200, 0);
+  Shop shop;
+  shop.scene.target_tolerance = 0.2;
+  shop.box("", {}, {}, BodyRole::Target).shape =
+      std::make_shared<const solids::Mesh>(std::vector<solids::Triangle>{{{a, b, c}},
+                                                                         {{a, c, d}},
+                                                                         {{a, low, b}},
+                                                                         {{d, c, far}},
+                                                                         {{b, low, far}},
+                                                                         {{b, far, c}},
+                                                                         {{a, d, far}},
+                                                                         {{a, far, low}}});
+  const auto run_at = [&](double gouge) {
+    // The rim, 10 before the axis, is `gouge` below the plane X = Z.
+    const double z = 100 - gouge * std::numbers::sqrt2;
+    return shop.run(fmt::format("M06 T101001\nG00 X90 Y50 Z300\nG01 Z{} F1000 G09\nY150 G09\nG00 Z300\nM02\n", z));
+  };
+  for (const double accepted : {0.0, 0.1, 0.2}) EXPECT_EQ(told(run_at(accepted).contacts), "") << accepted;
+  for (const double deep : {0.24, 0.28, 0.32, 0.5, 2.0}) {
+    const VerifiedRun run = run_at(deep);
+    ASSERT_EQ(run.contacts.size(), 1u) << deep;
+    EXPECT_EQ(dialect::definition(run.contacts[0].id).code, "E155");
+    EXPECT_NEAR(run.contacts[0].distance, 0.2 - deep, 0.002) << deep;
+  }
+}
+
 TEST(Contacts, MachineSpoilboardAndPartHaveTheirCodes) {
   Shop shop;
   shop.scene.clearance = 0;

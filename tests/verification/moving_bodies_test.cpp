@@ -84,6 +84,16 @@ TEST(MovingBodies, GantryMeetsAPost) {
   }
 }
 
+/// A gantry is as near to its rails as it is made to be. What it only passes near elsewhere is told.
+TEST(MovingBodies, GantryPassesNearAPost) {
+  Shop shop;
+  on_machine(shop, "gantry", Link::X, solids::Cuboid{{-20, -100, 50}, {20, 100, 150}});
+  on_machine(shop, "rail", Link::Machine, solids::Cuboid{{-500, -100, 20}, {1000, 100, 49}});
+  on_machine(shop, "post", Link::Machine, solids::Cuboid{{500, 50, 60}, {540, 90, 400}});
+  EXPECT_EQ(hits(shop.run("M06 T101001\nG00 X0 Y0 Z600\nX478.5\nX0\nM02\n")), "W154 gantry | post\n");
+  EXPECT_EQ(hits(shop.run("M06 T101001\nG00 X0 Y0 Z600\nX477.9\nX0\nM02\n")), "");
+}
+
 /// What moves with the spindle is not compared with itself.
 TEST(MovingBodies, OfOneChainAreNotCompared) {
   for (const MachineKind kind : {MachineKind::ThreeAxis, MachineKind::Head}) {

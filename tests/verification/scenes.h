@@ -70,7 +70,9 @@ struct Shop {
     running::RunOptions options;
     options.setup.home = machine.home;
     Scene made = scene;
-    made.touching = touching_at_home(made, machine);
+    made.at_home = neighbors_at_home(made, machine);
+    for (SceneBody& body : made.setup)
+      if (body.role == BodyRole::Target) body.core = core_of_target(body.shape, made.target_tolerance);
     return verified_run(program, options, machine, &made, std::move(work_together));
   }
 };

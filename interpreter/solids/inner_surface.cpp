@@ -1,0 +1,383 @@
+#include "interpreter/solids/inner_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "interpreter/solids/convex_clearance.h"
+#include "interpreter/solids/deep_points.h"
+
+namespace isocnc::solids {
+
+using geometry::Vec3;
+
+namespace {
+
+constexpr double kFlat = 1e-6;                         ///< Radians between faces that are one.
+constexpr double kFacet = std::numbers::pi / 6;        ///< Largest turn from one facet to the next.
+constexpr double kSharpest = 0.99 * std::numbers::pi;  ///< Outer edges count as no sharper.
+constexpr std::uint32_t kNoFace = ~std::uint32_t{0};
+
+/// The faces beside each edge of a closed mesh. Edge i of a triangle runs from its corner i to the next one.
+class EdgeNeighbors {
+ public:
+  explicit EdgeNeighbors(std::span<const Triangle> triangles)
+      : corners_(corner_numbers(triangles)), beside_(triangles.size(), {kNoFace, kNoFace, kNoFace}) {
+    std::vector<SharedEdge> edges;
+    for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+      const std::uint32_t from = corners_[i];
+      const std::uint32_t to = corners_[i % 3 == 2 ? i - 2 : i + 1];
+      if (from != to) edges.push_back({std::min(from, to), std::max(from, to), i, from < to});
+    }
+    std::sort(edges.begin(), edges.end(), [](const SharedEdge& a, const SharedEdge& b) {
+      return std::tuple(a.low, a.high, a.index) < std::tuple(b.low, b.high, b.index);
+    });
+    for (std::size_t i = 0; i < edges.size();) {
+      std::size_t end = i;
+      while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
+      pair(std::span(edges).subspan(i, end - i));
+      i = end;
+    }
+  }
+
+  /// kNoFace for an edge without length.
+  std::uint32_t beside(std::uint32_t face, std::uint32_t edge) const { return beside_[face][edge]; }
+  /// The number of a face's corner; equal corners have the same.
+  std::uint32_t corner(std::uint32_t face, std::uint32_t index) const { return corners_[3 * face + index]; }
+
+ private:
+  struct SharedEdge {
+    std::uint32_t low;
+    std::uint32_t high;
+    std::uint32_t index;  ///< 3 times that of the face, and that of the edge.
+    bool runs_up;
+  };
+
+  /// Each edge with one that runs the other way; in a closed mesh there is one.
+  void pair(std::span<SharedEdge> edges) {
+    const auto downs = std::stable_partition(edges.begin(), edges.end(), [](const SharedEdge& e) { return e.runs_up; });
+    for (auto up = edges.begin(), down = downs; up != downs && down != edges.end(); ++up, ++down) {
+      beside_[up->index / 3][up->index % 3] = down->index / 3;
+      beside_[down->index / 3][down->index % 3] = up->index / 3;
+    }
+  }
+
+  std::vector<std::uint32_t> corners_;
+  std::vector<std::array<std::uint32_t, 3>> beside_;
+};
+
+/// A half plane: inwards . p is at least `low`.
+struct HalfPlane {
+  Vec3 inwards;
+  double low = 0;
+};
+
+using ConvexPolygon = std::vector<Vec3>;
+
+ConvexPolygon clipped(const ConvexPolygon& polygon, const HalfPlane& to) {
+  ConvexPolygon result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3& from = polygon[i];
+    const Vec3& next = polygon[(i + 1) % polygon.size()];
+    const double at = to.inwards.dot(from) - to.low;
+    const double at_next = to.inwards.dot(next) - to.low;
+    if (at >= 0) result.push_back(from);
+    if ((at < 0) != (at_next < 0)) result.push_back(from + at / (at - at_next) * (next - from));
+  }
+  return result;
+}
+
+/// A face's edge, with how the surface goes on beside it.
+struct FaceEdge {
+  Vec3 from;
+  Vec3 to;
+  Vec3 along;       ///< Unit vector; 0 for an edge without length.
+  Vec3 inwards;     ///< Unit vector across it, into the face.
+  double turn = 0;  ///< From this face's normal to the next one's, radians: positive at an outer edge.
+
+  bool is_outer() const { return turn > kFlat; }
+  bool is_inner() const { return turn < -kFlat; }
+  int facets() const { return std::max(1, static_cast<int>(std::ceil(-turn / kFacet))); }
+  /// Half the turn from one facet to the next.
+  double half_step() const { return -turn / facets() / 2; }
+};
+
+class InnerFaces {
+ public:
+  InnerFaces(std::span<const Triangle> faces, double depth) : faces_(faces), neighbors_(faces), depth_(depth) {
+    normals_.reserve(faces.size());
+    for (const Triangle& face : faces) {
+      const Vec3 area = face.area_vector();
+      normals_.push_back(area.norm() > 0 ? Vec3(area.normalized()) : Vec3(Vec3::Zero()));
+    }
+    find_rims();
+  }
+
+  std::vector<Triangle> make() {
+    for (std::uint32_t face = 0; face < faces_.size(); ++face)
+      if (!normals_[face].isZero(0)) add_face(face);
+    return std::move(result_);
+  }
+
+ private:
+  FaceEdge edge_of(std::uint32_t face, std::uint32_t index) const {
+    const Triangle& triangle = faces_[face];
+    FaceEdge edge{.from = triangle.corners[index],
+                  .to = triangle.corners[(index + 1) % 3],
+                  .along = Vec3::Zero(),
+                  .inwards = Vec3::Zero()};
+    const Vec3& normal = normals_[face];
+    const double length = (edge.to - edge.from).norm();
+    const std::uint32_t beside = neighbors_.beside(face, index);
+    if (!(length > 0) || beside == kNoFace) return edge;
+    edge.along = (edge.to - edge.from) / length;
+    edge.inwards = normal.cross(edge.along);
+    const Vec3& other = normals_[beside];
+    if (!other.isZero(0)) edge.turn = std::atan2(normal.cross(other).dot(edge.along), normal.dot(other));
+    return edge;
+  }
+
+  /// An outer edge that ends at a corner of a face.
+  struct RimEnd {
+    std::uint32_t corner;
+    std::uint32_t face;
+    double inset;   ///< By how much the shifted face ends before the edge, mm.
+    HalfPlane end;  ///< Where it ends.
+    Vec3 along;     ///< From the corner along the edge, unit vector.
+  };
+
+  /// A face at one of its corners.
+  struct FaceCorner {
+    std::uint32_t corner;
+    std::uint32_t face;
+    double angle;  ///< Radians.
+  };
+
+  double inset_of(const FaceEdge& edge) const { return depth_ * std::tan(std::min(edge.turn, kSharpest) / 2); }
+  HalfPlane end_at(const FaceEdge& edge) const { return {edge.inwards, edge.inwards.dot(edge.from) + inset_of(edge)}; }
+
+  void find_rims() {
+    for (std::uint32_t face = 0; face < faces_.size(); ++face)
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const auto& corners = faces_[face].corners;
+        const Vec3 one = corners[(i + 1) % 3] - corners[i];
+        const Vec3 other = corners[(i + 2) % 3] - corners[i];
+        corners_.push_back({neighbors_.corner(face, i), face, std::atan2(one.cross(other).norm(), one.dot(other))});
+        const FaceEdge edge = edge_of(face, i);
+        if (!edge.is_outer()) continue;
+        rims_.push_back({neighbors_.corner(face, i), face, inset_of(edge), end_at(edge), edge.along});
+        rims_.push_back({neighbors_.corner(face, (i + 1) % 3), face, inset_of(edge), end_at(edge), -edge.along});
+      }
+    const auto by_place = [](const auto& a, const auto& b) {
+      return std::pair(a.corner, a.face) < std::pair(b.corner, b.face);
+    };
+    std::stable_sort(rims_.begin(), rims_.end(), by_place);
+    std::stable_sort(corners_.begin(), corners_.end(), by_place);
+  }
+
+  /// Those of a list that are at a corner, on the plane of a face.
+  template <class Ends, class Use>
+  void for_each_at(const Ends& ends, std::uint32_t corner, std::uint32_t face, Use&& use) const {
+    constexpr double kSamePlane = 1e-3;
+    for (auto end = std::lower_bound(ends.begin(), ends.end(), corner,
+                                     [](const auto&each, std::uint32_t number) { return each.corner < number; });
+         end != ends.end() && end->corner == corner; ++end)
+      if ((normals_[end->face] - normals_[face]).norm() < kSamePlane) use(*end);
+  }
+
+  /// A face with a corner on the rim of the plane that it is part of ends before the rim, as its neighbors do. Where
+  /// the rim turns inwards, what is near the corner counts instead of what is near the edge's line beyond it.
+  void add_ends_at_corners(std::uint32_t face) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const std::uint32_t corner = neighbors_.corner(face, i);
+      const Vec3& at = faces_[face].corners[i];
+      const Vec3 one = faces_[face].corners[(i + 1) % 3] - at;
+      const Vec3 other = faces_[face].corners[(i + 2) % 3] - at;
+      double angle = 0;
+      for_each_at(corners_, corner, face, [&](const FaceCorner& each) { angle += each.angle; });
+      double inset = 0;
+      for_each_at(rims_, corner, face, [&](const RimEnd& rim) {
+        if (angle < std::numbers::pi - kFlat || (one.dot(rim.along) >= 0 && other.dot(rim.along) >= 0))
+          ends_.push_back(rim.end);
+        else
+          inset = std::max(inset, rim.inset);
+      });
+      const Vec3 middle = one.normalized() + other.normalized();
+      if (!(inset > 0) || !(middle.norm() > 0)) continue;
+      // The chord of the circle about the corner.
+      const Vec3 inwards = middle.normalized();
+      ends_.push_back({inwards, inwards.dot(at) + inset * inwards.dot(one.normalized())});
+    }
+  }
+
+  /// The shifted face, longer at inner edges and shorter at outer ones.
+  void add_face(std::uint32_t face) {
+    const Vec3& normal = normals_[face];
+    const Vec3 shift = -depth_ * normal;
+    std::array<FaceEdge, 3> edges;
+    for (std::uint32_t i = 0; i < 3; ++i) edges[i] = edge_of(face, i);
+    ends_.clear();
+    for (const FaceEdge& edge : edges)
+      if (edge.is_outer()) ends_.push_back(end_at(edge));
+    add_ends_at_corners(face);
+    const auto& [a, b, c] = faces_[face].corners;
+    add_ended({a + shift, b + shift, c + shift}, normal);
+    const auto outwards = [&](const FaceEdge& edge) -> Vec3 {
+      return -depth_ * std::tan(edge.half_step()) * edge.inwards;
+    };
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const FaceEdge& edge = edges[i];
+      if (!edge.is_inner()) continue;
+      const Vec3 from = edge.from + shift;
+      const Vec3 to = edge.to + shift;
+      const Vec3 by = outwards(edge);
+      add_ended({from, from + by, to + by, to}, normal);
+      if (const FaceEdge& next = edges[(i + 1) % 3]; next.is_inner())
+        add_ended({to, to + by, to + outwards(next)}, normal);
+      if (face < neighbors_.beside(face, i)) add_facets(edge, normal);
+    }
+  }
+
+  /// Those between the faces at an inner edge.
+  void add_facets(const FaceEdge& edge, const Vec3& normal) {
+    const int count = edge.facets();
+    for (int i = 1; i < count; ++i) {
+      const Vec3 facing = Eigen::AngleAxisd(edge.turn * i / count, edge.along) * normal;
+      const Vec3 half = depth_ * std::tan(edge.half_step()) * edge.along.cross(facing);
+      const Vec3 from = edge.from - depth_ * facing;
+      const Vec3 to = edge.to - depth_ * facing;
+      add({from - half, to - half, to + half, from + half}, facing);
+    }
+  }
+
+  void add_ended(ConvexPolygon polygon, const Vec3& normal) {
+    for (const HalfPlane& end : ends_) polygon = clipped(polygon, end);
+    add(polygon, normal);
+  }
+
+  void add(const ConvexPolygon& polygon, const Vec3& normal) {
+    constexpr double kNoArea = 1e-12;  // mm^2
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+      Triangle triangle{{polygon[0], polygon[i - 1], polygon[i]}};
+      const double area = triangle.area_vector().dot(normal);
+      if (!(std::abs(area) > kNoArea)) continue;
+      if (area < 0) std::swap(triangle.corners[1], triangle.corners[2]);
+      result_.push_back(triangle);
+    }
+  }
+
+  std::span<const Triangle> faces_;
+  EdgeNeighbors neighbors_;
+  double depth_;
+  std::vector<Vec3> normals_;
+  std::vector<RimEnd> rims_;         ///< By their corners.
+  std::vector<FaceCorner> corners_;  ///< By their corners.
+  std::vector<HalfPlane> ends_;      ///< Where the present face ends at outer edges.
+  std::vector<Triangle> result_;
+};
+
+}  // namespace
+
+InnerSurface::InnerSurface(std::shared_ptr<const Mesh> whole, double depth) : whole_(std::move(whole)), depth_(depth) {
+  std::vector<Triangle> faces = InnerFaces(whole_->triangles(), depth).make();
+  if (!faces.empty()) faces_.emplace(std::move(faces));
+}
+
+namespace {
+
+/// What is nearer than this to a face is looked at closely, mm.
+constexpr double kNear = 0.025;
+
+/// A point of a triangle that is within `within` of a convex core, if both have one: from one to the other and back.
+template <class Core>
+std::optional<Vec3> common_point(const Core& core, double within, const Triangle& triangle, Vec3 from) {
+  constexpr int kRounds = 64;
+  for (int i = 0; i < kRounds; ++i) {
+    const Vec3 on_core = core.nearest(from);
+    if ((on_core - from).norm() <= within + kRounding) return from;
+    from = triangle.nearest(on_core);
+  }
+  return {};
+}
+
+/// What a body does at the faces of an inner surface that it is near to.
+class NearFaces {
+ public:
+  NearFaces(const RevolvedBody& body, const AxisPlacement& at, const InnerSurface& inner)
+      : body_(body), at_(at), inner_(inner) {}
+
+  Clearance clearance() {
+    look();
+    detail::DeepPoints(inner_.whole(), deepest_).take(body_, at_);
+    const double beyond = deepest_.depth() - inner_.depth();
+    if (beyond > -kRounding) {
+      deepest_.lower = deepest_.upper = -std::max(beyond, 0.0);
+      return deepest_;
+    }
+    if (nearest_.upper < kExact) return nearest_;
+    // Only faces that are less deep: the body goes on at least by a part of what it is less deep than it may be.
+    return detail::bounded_by(std::max(kNear, -beyond / 2));
+  }
+
+ private:
+  static constexpr int kMaxFaces = 64;
+
+  bool is_deep(const Vec3& point) const {
+    Clearance found{.lower = 0, .upper = 0};
+    detail::DeepPoints(inner_.whole(), found).take_point(point, 0);
+    return found.depth() > inner_.depth() - kRounding;
+  }
+
+  /// Points of near faces, and points of the body that lie lowest before them.
+  void look() {
+    int left = kMaxFaces;
+    for (const BodyPiece& piece : body_.pieces()) {
+      const PlacedFrustum core(piece.core, at_);
+      const auto grown = detail::rounded(core, piece.rounding + kNear);
+      detail::MeshSearch(*inner_.faces(), grown, 0).each_touching([&](const Triangle& face, const Clearance& found) {
+        const Vec3 normal = face.area_vector().normalized();
+        detail::DeepPoints deep(inner_.whole(), deepest_);
+        deep.take_point(core.lowest_point(normal) - piece.rounding * normal, 0);
+        if (const auto common = common_point(core, piece.rounding, face, found.on_obstacle)) {
+          deep.take_point(*common, 0);
+        } else if (found.upper + kNear > 0 && is_deep(found.on_obstacle)) {
+          Clearance apart = found;
+          apart.lower += kNear;
+          apart.upper += kNear;
+          detail::include(nearest_, apart);
+        }
+        return --left > 0;
+      });
+    }
+  }
+
+  const RevolvedBody& body_;
+  const AxisPlacement& at_;
+  const InnerSurface& inner_;
+  Clearance deepest_ = {.lower = 0, .upper = 0};  ///< Of points of the body in the mesh.
+  Clearance nearest_;                             ///< To faces that are as deep as they should be.
+};
+
+}  // namespace
+
+Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const InnerSurface& inner, double sufficient) {
+  if (!inner.faces()) return {};
+  const double bound = detail::coarse_bound(body, at, inner.faces()->bounds());
+  if (bound >= sufficient || !detail::is_usable(bound)) return detail::bounded_by(bound);
+  Clearance nearest;
+  for (const BodyPiece& piece : body.pieces()) {
+    detail::MeshSearch(*inner.faces(), detail::rounded(PlacedFrustum(piece.core, at), piece.rounding), sufficient)
+        .until_touch(nearest);
+    if (!(nearest.upper > 0)) break;
+  }
+  const bool is_near = !(nearest.lower > kNear);
+  if (!is_near && !inner.whole().encloses(at.at(body.pieces().front().core.bottom))) return nearest;
+  const Clearance looked = NearFaces(body, at, inner).clearance();
+  return is_near || looked.upper <= 0 ? looked : nearest;
+}
+
+}  // namespace isocnc::solids

@@ -1,0 +1,183 @@
+#include "interpreter/solids/inner_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "scenes.h"
+
+namespace isocnc::solids {
+namespace {
+
+using scenes::body;
+using scenes::Random;
+using scenes::upright;
+using scenes::Vec3;
+
+constexpr double kDepth = 0.2;
+constexpr double kFacetError = 1.036;  ///< Between two facets, an inner edge is deeper by this factor at most.
+
+/// A prism along Y from 0 to `length`. The outline in X and Z is seen from the front, counterclockwise, and from its
+/// first corner all of it can be seen.
+std::shared_ptr<const Mesh> prism(const std::vector<geometry::Vec2>& outline, double length) {
+  std::vector<Triangle> triangles;
+  const auto at = [&](std::size_t i, double y) {
+    const geometry::Vec2& corner = outline[i % outline.size()];
+    return Vec3(corner.x(), y, corner.y());
+  };
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    triangles.push_back({{at(i, 0), at(i + 1, 0), at(i + 1, length)}});
+    triangles.push_back({{at(i, 0), at(i + 1, length), at(i, length)}});
+  }
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+    triangles.push_back({{at(0, 0), at(i + 1, 0), at(i, 0)}});
+    triangles.push_back({{at(0, length), at(i, length), at(i + 1, length)}});
+  }
+  for (Triangle& triangle : triangles) std::swap(triangle.corners[1], triangle.corners[2]);
+  auto mesh = std::make_shared<const Mesh>(std::move(triangles));
+  EXPECT_TRUE(mesh->topology().faces_outwards());
+  return mesh;
+}
+
+double distance(const RevolvedBody& tool, const AxisPlacement& at, const std::shared_ptr<const Mesh>& part,
+                double depth = kDepth) {
+  const Clearance found = clearance(tool, at, InnerSurface(part, depth));
+  EXPECT_LE(found.lower, found.upper + 1e-9);
+  return found.lower;
+}
+
+/// How deep a tool cuts into a slope is measured across the slope, with every tool: for a flat end it is its rim, which
+/// is neither `depth` from the end nor from the side of what is cut.
+TEST(InnerSurface, OfASlopeIsMeasuredAcrossIt) {
+  for (const double degrees : {0.0, 10.0, 30.0, 45.0, 70.0}) {
+    const double slope = std::tan(degrees * std::numbers::pi / 180);
+    const auto part = prism({{0, -100}, {200, -100}, {200, 200 * slope}, {0, 0}}, 200);
+    const Vec3 normal = Vec3(-slope, 0, 1).normalized();
+    for (const RevolvedBody& tool : {body(flat_body(5, 400)), body(bull_body(5, 1, 400)), body(ball_body(5, 400)),
+                                     body(cone_body(5, 0, 60, 400)), body(cone_body(3, 0.1, 90, 400))})
+      for (const double gouge : {0.0, 0.1, 0.19, 0.21, 0.3, 0.6}) {
+        SCOPED_TRACE(testing::Message() << degrees << " degrees, " << gouge);
+        const Vec3 lowest = scenes::farthest_point(tool, upright(0, 0, 0), -normal);
+        const Vec3 on_slope(100, 100, 100 * slope);
+        EXPECT_NEAR(distance(tool, {on_slope - gouge * normal - lowest, {0, 0, 1}}, part), kDepth - gouge, 2e-5);
+      }
+  }
+}
+
+/// Beside an outer edge, the depth is that below the nearer face: above it, the tool may go as far down as it likes.
+TEST(InnerSurface, EndsWhereFacesMeetInAnOuterEdge) {
+  const auto part = std::make_shared<const Mesh>(scenes::box_triangles({{0, 0, -50}, {100, 100, 0}}));
+  const RevolvedBody tool = body(flat_body(5, 60));
+  for (const double below : {0.0, 0.1, 0.19, 1.0, 30.0}) {
+    // From the edge of what is deep: 0.05 beside it, and above it as far as the tool is less than 0.2 below the top.
+    EXPECT_NEAR(distance(tool, upright(-5 + 0.15, 50, -below), part), std::hypot(0.05, std::max(0.0, kDepth - below)),
+                2e-5)
+        << below;
+    // Across the upright edge.
+    const double at = 0.15 - 5 / std::numbers::sqrt2;
+    EXPECT_NEAR(distance(tool, upright(at, at, -below), part),
+                std::hypot(0.05 * std::numbers::sqrt2, std::max(0.0, kDepth - below)), 2e-5);
+  }
+  EXPECT_LE(distance(tool, upright(-5 + 0.21, 50, -1), part), 0);
+  EXPECT_GT(distance(tool, upright(-5 + 0.21, 50, -0.1), part), 0.02);
+}
+
+/// In the corner between a floor and a wall the depth is the distance from the corner.
+TEST(InnerSurface, IsRoundAboutAnInnerEdge) {
+  const auto part = prism({{0, 0}, {0, 50}, {-50, 50}, {-50, -50}, {100, -50}, {100, 0}}, 200);
+  const RevolvedBody tool = body(flat_body(5, 100));
+  for (int i = 0; i <= 18; ++i) {
+    const double angle = i * std::numbers::pi / 36;
+    const auto at = [&](double gouge) {
+      return distance(tool, upright(5 - gouge * std::sin(angle), 100, -gouge * std::cos(angle)), part);
+    };
+    EXPECT_GT(at(0.97 * kDepth), 0) << i;
+    EXPECT_LE(at(kFacetError * kDepth + 0.001), 1e-6) << i;
+  }
+}
+
+/// A rib that is thinner than twice the depth has nothing that is deep, and the wall beside it is free to be finished.
+TEST(InnerSurface, OfAThinRibIsInNobodysWay) {
+  const auto part =
+      prism({{-50, -50}, {50, -50}, {50, 0}, {0.15, 0}, {0.15, 30}, {-0.15, 30}, {-0.15, 0}, {-50, 0}}, 200);
+  const RevolvedBody tool = body(flat_body(5, 100));
+  EXPECT_GT(distance(tool, upright(5.15, 100, 0), part), 0.02);
+  EXPECT_GT(distance(tool, upright(5.15, 100, 10), part), 0.02);
+  EXPECT_LE(distance(tool, upright(20, 100, -0.21), part), 0);
+}
+
+/// A part that is nowhere deep has no inner surface.
+TEST(InnerSurface, OfAThinSheetIsEmpty) {
+  const auto part = std::make_shared<const Mesh>(scenes::box_triangles({{0, 0, 0}, {0.1, 0.1, 0.1}}));
+  EXPECT_GT(distance(body(flat_body(5, 60)), upright(0, 0, 0), part, 1), 0);
+}
+
+/// How deep a point is in a mesh, from all of its triangles; negative outside.
+double depth_of(const Mesh& mesh, const Vec3& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Triangle& triangle : mesh.triangles())
+    nearest = std::min(nearest, (triangle.nearest(point) - point).norm());
+  return mesh.encloses(point) ? nearest : -nearest;
+}
+
+/// Points of a tool's surface, close to one another at its end.
+std::vector<Vec3> surface_points(const RevolvedBody& tool, const AxisPlacement& at) {
+  std::vector<Vec3> points;
+  const Vec3 side = at.axis.unitOrthogonal();
+  const Vec3 other = at.axis.cross(side);
+  for (int i = 0; i < 240; ++i) {
+    const double angle = i * std::numbers::pi / 120;
+    const Vec3 outwards = std::cos(angle) * side + std::sin(angle) * other;
+    for (const BodyPiece& piece : tool.pieces())
+      for (int k = 0; k <= 6; ++k) {
+        const double tilt = -std::numbers::pi / 2 * k / 6;
+        const Vec3 rounded = piece.rounding * (std::cos(tilt) * outwards + std::sin(tilt) * at.axis);
+        const double part = k / 6.0;
+        const double r = piece.core.bottom_radius + part * (piece.core.top_radius - piece.core.bottom_radius);
+        const double z = piece.core.bottom + part * (piece.core.top - piece.core.bottom);
+        points.push_back(at.at(piece.core.bottom) + piece.core.bottom_radius * outwards + rounded);
+        points.push_back(at.at(z) + r * outwards);
+      }
+  }
+  return points;
+}
+
+/// In bumpy parts, too, what goes clearly deeper is found, and what is found is a point of the tool that is so deep.
+TEST(InnerSurface, FindsWhatIsDeepAndNothingElse) {
+  std::size_t deep = 0;
+  for (const std::uint64_t seed : support::seeds(60)) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const auto part = std::make_shared<const Mesh>(scenes::bumpy_ball(Vec3(0, 0, 0), 40, 12, 0.08));
+    const double radius = random.real(1, 8);
+    const RevolvedBody tool = random.one_in(2)   ? body(flat_body(radius, 60))
+                              : random.one_in(2) ? body(bull_body(radius, radius / 3, 60))
+                                                 : body(cone_body(radius, 0, 90, 60));
+    const scenes::Touch touch = scenes::any_touch(random, *part);
+    const Vec3 axis = (touch.normal + 0.7 * scenes::any_direction(random)).normalized();
+    const AxisPlacement at = scenes::placed_at_gap(tool, axis, touch, -random.real(0, 0.8));
+    const Clearance found = clearance(tool, at, InnerSurface(part, kDepth));
+    double deepest = -1;
+    for (const Vec3& point : surface_points(tool, at)) {
+      if ((point - touch.point).norm() < 15) deepest = std::max(deepest, depth_of(*part, point));
+    }
+    if (deepest > kFacetError * kDepth + 0.01) {
+      ++deep;
+      EXPECT_LE(found.upper, 0.02) << deepest;
+    }
+    if (!(found.upper <= 0)) continue;
+    EXPECT_NEAR(depth_of(*part, found.on_body), kDepth - found.upper, 1e-5);
+    double off = std::numeric_limits<double>::infinity();
+    for (const BodyPiece& piece : tool.pieces())
+      off =
+          std::min(off, (PlacedFrustum(piece.core, at).nearest(found.on_body) - found.on_body).norm() - piece.rounding);
+    EXPECT_LE(off, 1e-5);
+  }
+  EXPECT_GT(deep, 5U);
+}
+
+}  // namespace
+}  // namespace isocnc::solids
