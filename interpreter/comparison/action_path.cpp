@@ -13,7 +13,7 @@ using geometry::Vec3;
 static constexpr double kFullTurn = 2 * std::numbers::pi;
 /// Maximum number of chords of a motion.
 static constexpr double kMaxChords = 4096;
-/// Maximum number of distances between a point and a line in one direction of a Hausdorff distance.
+/// Maximum number of distances between a point and a line, from one chain to another one.
 static constexpr std::size_t kMaxDistances = 20'000'000;
 
 static double between(double from, double to, double part) { return from + part * (to - from); }
@@ -173,20 +173,21 @@ class FarthestPoint {
 
 }  // namespace
 
+std::optional<double> distance_from(std::span<const Vec3> chain, std::span<const Vec3> other, double accuracy,
+                                    std::size_t* left) {
+  if (chain.empty() || other.empty()) return std::nullopt;
+  const std::size_t allowed = std::min(kMaxDistances, left == nullptr ? kMaxDistances : *left);
+  std::size_t rest = allowed;
+  FarthestPoint farthest(other, accuracy, rest);
+  const bool is_known = farthest.look_at(chain);
+  if (left != nullptr) *left -= allowed - rest;
+  return is_known ? std::optional(farthest.farthest()) : std::nullopt;
+}
+
 std::optional<double> distance_of(std::span<const Vec3> a, std::span<const Vec3> b, double accuracy,
                                   std::size_t* left) {
-  if (a.empty() || b.empty()) return std::nullopt;
-  // In one direction each.
-  const auto look = [&](std::span<const Vec3> chain, std::span<const Vec3> other) -> std::optional<double> {
-    const std::size_t allowed = std::min(kMaxDistances, left == nullptr ? kMaxDistances : *left);
-    std::size_t rest = allowed;
-    FarthestPoint farthest(other, accuracy, rest);
-    const bool is_known = farthest.look_at(chain);
-    if (left != nullptr) *left -= allowed - rest;
-    return is_known ? std::optional(farthest.farthest()) : std::nullopt;
-  };
-  const std::optional<double> from_a = look(a, b);
-  const std::optional<double> from_b = from_a ? look(b, a) : std::nullopt;
+  const std::optional<double> from_a = distance_from(a, b, accuracy, left);
+  const std::optional<double> from_b = from_a ? distance_from(b, a, accuracy, left) : std::nullopt;
   if (!from_b) return std::nullopt;
   return std::max(*from_a, *from_b);
 }

@@ -35,6 +35,10 @@ class ActionPath {
 /// most `deviation` mm from them.
 std::vector<geometry::Vec3> chain_of(const RecordedRun& run, std::span<const MachineAction> actions, double deviation);
 
+/// How far a point of a chain is at most from another one, mm; else as distance_of().
+std::optional<double> distance_from(std::span<const geometry::Vec3> chain, std::span<const geometry::Vec3> other,
+                                    double accuracy, std::size_t* left = nullptr);
+
 /// Hausdorff distance of two chains of points, mm: how far a point of one is at most from the other. The result is at
 /// most `accuracy` below. None where it would take too long: `left` is how many distances from points to lines are left
 /// for this and others.

@@ -118,8 +118,7 @@ std::optional<execution::ToolCode> tool_of(const RecordedRun& run, const Machine
 
 ChangeList::ChangeList(const RunPair& runs, const ComparisonOptions& options) : runs_(runs), options_(options) {}
 
-/// How long a run takes for a range of actions, seconds.
-static double seconds_of(const RecordedRun& run, std::size_t begin, std::size_t end) {
+double seconds_of(const RecordedRun& run, std::size_t begin, std::size_t end) {
   return begin < end ? run.actions[std::min(end, run.actions.size() - 1)].start - run.actions[begin].start : 0;
 }
 
@@ -453,6 +452,7 @@ void ChangeList::join_moved_blocks() {
       if (changes_[k].kind != ChangeKind::Added || is_joined[k] || !is_same_block(places_[i], places_[k])) continue;
       BehaviorChange& change = changes_[i];
       change.kind = ChangeKind::Reordered;
+      change.distance.reset();
       change.new_lines = changes_[k].new_lines;
       change.new_start = changes_[k].new_start;
       change.new_motions = changes_[k].new_motions;

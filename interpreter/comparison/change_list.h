@@ -23,6 +23,9 @@ std::optional<execution::ToolCode> tool_of(const RecordedRun& run, const Machine
 /// The lines of a range of actions; none for an empty one.
 std::optional<ChangedLines> lines_of(const RecordedRun& run, std::size_t begin, std::size_t end);
 
+/// How long a run takes for a range of actions, seconds.
+double seconds_of(const RecordedRun& run, std::size_t begin, std::size_t end);
+
 /// Whether two actions are the same, wherever they come from: with the same feed, too, unless that is ignored.
 bool is_same_alone(const RunPair& runs, const ComparisonOptions& options, const MachineAction& a,
                    const MachineAction& b);

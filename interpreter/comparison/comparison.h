@@ -47,7 +47,9 @@ struct BehaviorChange {
   std::optional<execution::ToolCode> new_tool;
   /// Moved and Shape: how far a point of one path is at most from the other path, mm, or the length of `shift`; 0 for
   /// the same path the other way around. None where only B and C differ, or where that was not computed. Of what the
-  /// machine does elsewhere on the same path: the length of `later`.
+  /// machine does elsewhere on the same path: the length of `later`. Added and Removed: the same together with the next
+  /// motion, if that one goes where the other program does not go; its line is then that of the program that has no
+  /// more of the change.
   std::optional<double> distance;
   double end_distance = 0;              ///< Moved and Frame: by how much a motion ends elsewhere at most, mm.
   double turned = 0;                    ///< Moved: by how much B or C end elsewhere at most, degrees.

@@ -41,6 +41,8 @@ constexpr Text kMotion{"1 motion", "1 movimento"};
 constexpr Text kMotions{"{} motions", "{} movimenti"};
 constexpr Text kAdded{"added: {}", "aggiunto: {}"};
 constexpr Text kRemoved{"removed: {}", "tolto: {}"};
+constexpr Text kAndOtherPath{"{}; the next one takes another path, up to {} mm away",
+                             "{}; il successivo fa un altro percorso, fino a {} mm di distanza"};
 constexpr Text kReordered{"order changed", "ordine cambiato"};
 constexpr Text kReorderedOperation{"order changed: now {}, was {}", "ordine cambiato: ora {}, era {}"};
 constexpr Text kIsFirst{"the first one", "la prima"};
@@ -116,7 +118,9 @@ std::string shown_lines(const ChangedLines& lines, Language language) {
 }
 
 std::string shown_place(const BehaviorChange& change, Language language) {
-  if (change.old_lines == change.new_lines && change.old_lines) return shown_lines(*change.old_lines, language);
+  const bool is_of_one = change.kind == ChangeKind::Added || change.kind == ChangeKind::Removed;
+  if (!is_of_one && change.old_lines == change.new_lines && change.old_lines)
+    return shown_lines(*change.old_lines, language);
   std::string place;
   if (change.old_lines) place = dialect::format(kOldSide, language, shown_lines(*change.old_lines, language));
   if (!change.new_lines) return place;
@@ -158,6 +162,14 @@ std::string end_in_words(const BehaviorChange& change, Language language) {
 
 std::string later_in_words(std::string_view what, double later, Language language) {
   return dialect::format(later < 0 ? kEarlier : kLater, language, what, shown_distance(std::abs(later)));
+}
+
+/// Motions that only one program has.
+std::string count_in_words(const BehaviorChange& change, Language language) {
+  const bool is_added = change.kind == ChangeKind::Added;
+  const std::string text = dialect::format(is_added ? kAdded : kRemoved, language,
+                                           shown_count(is_added ? change.new_motions : change.old_motions, language));
+  return change.distance ? dialect::format(kAndOtherPath, language, text, shown_distance(*change.distance)) : text;
 }
 
 std::string exchange_in_words(const BehaviorChange& change, Language language) {
@@ -257,9 +269,8 @@ std::string in_words(const BehaviorChange& change, Language language) {
     case ChangeKind::Shape:
       return shape_in_words(change, language);
     case ChangeKind::Added:
-      return dialect::format(kAdded, language, shown_count(change.new_motions, language));
     case ChangeKind::Removed:
-      return dialect::format(kRemoved, language, shown_count(change.old_motions, language));
+      return count_in_words(change, language);
     case ChangeKind::Reordered:
       return std::string(kReordered.in(language));
     case ChangeKind::Frame:

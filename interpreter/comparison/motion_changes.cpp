@@ -135,7 +135,7 @@ class MotionNamer {
           return true;
         }
       }
-      changes_.add(only_b > 0 ? ChangeKind::Added : ChangeKind::Removed, group.all());
+      name_count(group, closing, only_b > 0);
       return false;
     }
     const std::optional<Vec3> common = common_shift(group);
@@ -150,6 +150,33 @@ class MotionNamer {
       name_shape(group.all(), group.closed(closing), shift);
     }
     return false;
+  }
+
+  /// Motions that only one run has. The one that follows them may go where the other run never goes: a retract is lost,
+  /// and the rapid above the part becomes a cut through it.
+  void name_count(const StepGroup& group, const MotionStep* closing, bool is_added) {
+    BehaviorChange& change = changes_.add(is_added ? ChangeKind::Added : ChangeKind::Removed, group.all());
+    if (closing == nullptr || closing->kind != MotionStep::Kind::Pair) return;
+    const Vec3& shift = group.steps.front().shift;
+    const ActionRanges at = group.closed(closing);
+    const ActionRanges next{at.a_end - 1, at.a_end, at.b_end - 1, at.b_end};
+    const double deviation = options_.tolerance / 8;
+    std::vector<Vec3> a_chain = chain(runs_.a, is_added ? next.a_begin : at.a_begin, at.a_end, deviation);
+    const std::vector<Vec3> b_chain = chain(runs_.b, is_added ? at.b_begin : next.b_begin, at.b_end, deviation);
+    for (Vec3& point : a_chain) point += shift;
+    const std::optional<double> off = is_added ? distance_from(a_chain, b_chain, deviation, distances_left())
+                                               : distance_from(b_chain, a_chain, deviation, distances_left());
+    if (!off || *off <= options_.tolerance) return;
+    change.distance = shown_distance(at, shift);
+    if (!change.distance) return;
+    change.seconds = seconds_of(runs_.b, at.b_begin, at.b_end) - seconds_of(runs_.a, at.a_begin, at.a_end);
+    if (is_added) {
+      change.old_lines = lines_of(runs_.a, next.a_begin, next.a_end);
+      change.old_tool = tool_of(runs_.a, a(next.a_begin));
+    } else {
+      change.new_lines = lines_of(runs_.b, next.b_begin, next.b_end);
+      change.new_tool = tool_of(runs_.b, b(next.b_begin));
+    }
   }
 
   /// Whether one run has a rapid where the other one has a feed move, which has the same rapid, as a way, beside it: it
@@ -244,15 +271,18 @@ class MotionNamer {
     return common;
   }
 
+  static std::vector<Vec3> chain(const RecordedRun& run, std::size_t begin, std::size_t end, double deviation) {
+    return chain_of(run, std::span(run.actions).subspan(begin, end - begin), deviation);
+  }
+  std::size_t* distances_left() const { return runs_.budget == nullptr ? nullptr : &runs_.budget->distances; }
+
   /// `fineness` divides how far the result may be off.
   std::optional<double> distance(const ActionRanges& at, const Vec3& shift, double fineness) const {
     const double deviation = options_.tolerance / 8 / fineness;
-    std::vector<Vec3> old_chain =
-        chain_of(runs_.a, std::span(runs_.a.actions).subspan(at.a_begin, at.a_end - at.a_begin), deviation);
+    std::vector<Vec3> old_chain = chain(runs_.a, at.a_begin, at.a_end, deviation);
     for (Vec3& point : old_chain) point += shift;
-    return distance_of(
-        old_chain, chain_of(runs_.b, std::span(runs_.b.actions).subspan(at.b_begin, at.b_end - at.b_begin), deviation),
-        options_.tolerance / 4 / fineness, runs_.budget == nullptr ? nullptr : &runs_.budget->distances);
+    return distance_of(old_chain, chain(runs_.b, at.b_begin, at.b_end, deviation), options_.tolerance / 4 / fineness,
+                       distances_left());
   }
 
   /// The distance where only B and C differ is none.

@@ -191,12 +191,27 @@ TEST(ComparisonProperty, ASingleChangeIsFoundAlone) {
       const geometry::Vec3 vector = point_of(changed.steps[step].to) - point_of(part.steps[step].to);
       ASSERT_NEAR(*change.distance, vector.norm(), 1e-9) << failure(seed, before.text, after.text);
     }
-    if (kind != SeededChange::TwoCoordinates) continue;
+    if (kind != SeededChange::TwoCoordinates && kind != SeededChange::LineLost) continue;
     // The distance against a dense reference.
     std::vector<geometry::Vec3> old_path;
     std::vector<geometry::Vec3> new_path;
     std::size_t first = step;
     while (!part.steps[--first].is_motion()) continue;
+    if (kind == SeededChange::LineLost) {
+      if (part.is_five_axis) continue;
+      std::size_t next = step + 1;
+      while (next < part.steps.size() && !part.steps[next].is_motion()) ++next;
+      if (next == part.steps.size()) continue;
+      new_path = {point_of(part.steps[first].to), point_of(part.steps[next].to)};
+      old_path = {new_path[0], point_of(part.steps[step].to), new_path[1]};
+      // Straight to the next place: where the old program did not go, that has to be told.
+      ASSERT_EQ(change.distance.has_value(), dense_distance(new_path, old_path) > 0.001) << shown(changes) << seed;
+      if (!change.distance) continue;
+      ASSERT_EQ(change.new_lines, (ChangedLines{after.lines[next - 1], after.lines[next - 1]})) << seed;
+      const double reference = std::max(dense_distance(old_path, new_path), dense_distance(new_path, old_path));
+      ASSERT_NEAR(*change.distance, reference, 0.001) << failure(seed, before.text, after.text);
+      continue;
+    }
     for (std::size_t i = first; i < part.steps.size(); ++i) {
       if (!part.steps[i].is_motion()) continue;
       old_path.push_back(point_of(part.steps[i].to));

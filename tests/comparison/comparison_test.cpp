@@ -161,9 +161,22 @@ const ComparisonCase kCases[] = {
 
     // Motions more or less, and their order.
     {"LineLost", kHead + "X50 Y50\nX100 Y0\nX0 Y7\nM02\n", kHead + "X50 Y50\nX0 Y7\nM02\n",
-     "removed 5|-: removed: 1 motion\n"},
+     "removed 5|5: removed: 1 motion; the next one takes another path, up to 70.711 mm away\n"},
+    // The rapid above the part becomes a cut through it, or a rapid through it.
+    {"RetractLost", kPlunged + "Y100\nG00 Z50\nY150\nG01 Z-5\nY200\nG00 Z50\nM02\n",
+     kPlunged + "Y100\nY150\nG01 Z-5\nY200\nG00 Z50\nM02\n",
+     "removed 6-7|6: removed: 2 motions; the next one takes another path, up to 55 mm away\n"},
+    {"RetractLostBeforeARapid", kPlunged + "Y100\nG00 Z50\nG00 Y150\nG01 Z-5\nY200\nG00 Z50\nM02\n",
+     kPlunged + "Y100\nG00 Y150\nG01 Z-5\nY200\nG00 Z50\nM02\n",
+     "removed 6-7|6: removed: 2 motions; the next one takes another path, up to 55 mm away\n"
+     "feed 8|6: G00 instead of F2000\n"},
+    {"RetractGained", kPlunged + "Y100\nY150\nY200\nM02\n", kPlunged + "Y100\nG00 Z50\nY150\nG01 Z-5\nY200\nM02\n",
+     "added 6|6-7: added: 2 motions; the next one takes another path, up to 55 mm away\n"},
+    // The next motion goes where the old program does.
+    {"WayOutAndBackLost", kPlunged + "Y100\nX50\nX10\nY150\nM02\n", kPlunged + "Y100\nY150\nM02\n",
+     "removed 6-7|-: removed: 2 motions\n"},
     {"LineGained", kHead + "X50 Y50\nX0 Y7\nM02\n", kHead + "X50 Y50\nX100 Y0\nX9 Y9\nX0 Y7\nM02\n",
-     "added -|5-6: added: 2 motions\n"},
+     "added 5|5-6: added: 2 motions; the next one takes another path, up to 70.711 mm away\n"},
     {"HoleOfAGrid",
      kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX40\nG01 Z0\nG00 Z40\nX60\nG01 Z0\nG00 Z40\nX80\nG01 Z0\nG00 Z40\nM02\n",
      kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX60\nG01 Z0\nG00 Z40\nX80\nG01 Z0\nG00 Z40\nM02\n",

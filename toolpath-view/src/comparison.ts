@@ -93,7 +93,11 @@ export class Comparison {
   }
   mark(side: Side, line: number): Mark {
     const change = this.changeOf(side, line);
-    return change < 0 ? 'same' : markOf(this.changes[change]);
+    if (change < 0) return 'same';
+    const mark = markOf(this.changes[change]);
+    // In the program that does not have the motions, the line is that of the next one, which takes another path.
+    const other = side === 'old' ? 'added' : 'removed';
+    return mark === other ? 'changed' : mark;
   }
   /** What has become of each step of a path. */
   stepMarks(side: Side): (step: number) => Mark {
