@@ -192,4 +192,64 @@ std::optional<double> distance_of(std::span<const Vec3> a, std::span<const Vec3>
   return std::max(*from_a, *from_b);
 }
 
+namespace {
+
+/// A part of a line, from 0 to 1.
+struct LinePart {
+  double from = 1;
+  double to = 0;
+
+  bool is_empty() const { return from > to; }
+};
+
+/// The part of a line that is at most `distance` from a point.
+LinePart near_part(const Vec3& point, const Vec3& from, const Vec3& to, double distance) {
+  const Vec3 along = to - from;
+  const Vec3 there = point - from;
+  const double square = along.squaredNorm();
+  if (!(square > 0)) return there.norm() <= distance ? LinePart{0, 1} : LinePart{};
+  const double middle = along.dot(there) / square;
+  const double rest = distance * distance - (there - middle * along).squaredNorm();
+  if (rest < 0) return {};
+  const double half = std::sqrt(rest / square);
+  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
+}
+
+/// The part of a line that is reached from its neighbors: from the line across all of it, from the one before it what
+/// lies ahead.
+LinePart reached(const LinePart& near, const LinePart& across, const LinePart& before) {
+  if (near.is_empty() || (across.is_empty() && before.is_empty())) return {};
+  return across.is_empty() ? LinePart{std::max(before.from, near.from), near.to} : near;
+}
+
+}  // namespace
+
+bool goes_along(std::span<const Vec3> a, std::span<const Vec3> b, double distance) {
+  if (a.size() < 2 || b.size() < 2) return false;
+  if ((a.front() - b.front()).norm() > distance || (a.back() - b.back()).norm() > distance) return false;
+  // Of each line of b what can be reached while a stands at the present point.
+  std::vector<LinePart> of_b(b.size() - 1);
+  bool goes_on = true;
+  for (std::size_t k = 0; k + 1 < b.size() && goes_on; ++k) {
+    const LinePart near = near_part(a[0], b[k], b[k + 1], distance);
+    goes_on = !near.is_empty() && near.from == 0;
+    if (goes_on) of_b[k] = near;
+    goes_on = goes_on && near.to == 1;
+  }
+  bool is_start_near = true;  // All points of a so far are near the first one of b.
+  for (std::size_t i = 0; i + 1 < a.size(); ++i) {
+    // Of the line of a what can be reached while b stands at the present point.
+    LinePart of_a;
+    const LinePart at_start = near_part(b[0], a[i], a[i + 1], distance);
+    if (is_start_near && !at_start.is_empty() && at_start.from == 0) of_a = at_start;
+    is_start_near = !of_a.is_empty() && of_a.to == 1;
+    for (std::size_t k = 0; k + 1 < b.size(); ++k) {
+      const LinePart before = of_b[k];
+      of_b[k] = reached(near_part(a[i + 1], b[k], b[k + 1], distance), of_a, before);
+      of_a = reached(near_part(b[k + 1], a[i], a[i + 1], distance), before, of_a);
+    }
+  }
+  return !of_b.back().is_empty() && of_b.back().to == 1;
+}
+
 }  // namespace isocnc::comparison

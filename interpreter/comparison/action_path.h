@@ -45,4 +45,8 @@ std::optional<double> distance_from(std::span<const geometry::Vec3> chain, std::
 std::optional<double> distance_of(std::span<const geometry::Vec3> a, std::span<const geometry::Vec3> b, double accuracy,
                                   std::size_t* left = nullptr);
 
+/// Whether two chains can be traveled from their starts to their ends, never back, with both places at most `distance`
+/// apart: whether that is not below their Fréchet distance. Takes time in proportion to the product of their sizes.
+bool goes_along(std::span<const geometry::Vec3> a, std::span<const geometry::Vec3> b, double distance);
+
 }  // namespace isocnc::comparison

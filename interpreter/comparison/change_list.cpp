@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/comparison/action_path.h"
+#include "interpreter/comparison/gap_steps.h"
 #include "interpreter/dialect/format.h"
 
 namespace isocnc::comparison {
@@ -18,6 +19,8 @@ using geometry::Vec3;
 
 namespace {
 
+/// How many times as far as the paths are apart motions may end from those that are the same.
+constexpr double kBeside = 2;
 constexpr double kSameFeed = 1e-4;  ///< Relative: what F loses where it is written in inches or under G93.
 
 std::string shown(double number) { return dialect::written_number(number, 4); }
@@ -122,7 +125,7 @@ double seconds_of(const RecordedRun& run, std::size_t begin, std::size_t end) {
   return begin < end ? run.actions[std::min(end, run.actions.size() - 1)].start - run.actions[begin].start : 0;
 }
 
-BehaviorChange& ChangeList::add(ChangeKind kind, const ActionRanges& at) {
+BehaviorChange ChangeList::measured_change(ChangeKind kind, const ActionRanges& at) const {
   BehaviorChange change{
       .kind = kind,
       .old_lines = lines_of(runs_.a, at.a_begin, at.a_end),
@@ -134,8 +137,12 @@ BehaviorChange& ChangeList::add(ChangeKind kind, const ActionRanges& at) {
       .new_motions = motion_count(runs_.b, at.b_begin, at.b_end)};
   if (at.a_begin < at.a_end) change.old_tool = tool_of(runs_.a, a(at.a_begin));
   if (at.b_begin < at.b_end) change.new_tool = tool_of(runs_.b, b(at.b_begin));
+  return change;
+}
+
+BehaviorChange& ChangeList::add(ChangeKind kind, const ActionRanges& at) {
   places_.push_back(at);
-  return changes_.emplace_back(std::move(change));
+  return changes_.emplace_back(measured_change(kind, at));
 }
 
 void ChangeList::follow_shift(const ActionRanges& at, const Vec3& shift) {
@@ -171,9 +178,12 @@ void ChangeList::close_shift() {
   change.new_cause = line_of(runs_.b, b(open.actions.b_begin).frame);
 }
 
-void ChangeList::compare_feeds(std::size_t i, std::size_t k) { compare_feeds(i, k, {}, {}); }
+void ChangeList::compare_feeds(std::size_t i, std::size_t k) {
+  compare_feeds(i, k, {}, {}, std::numeric_limits<double>::infinity());
+}
 
-void ChangeList::compare_feeds(std::size_t i, std::size_t k, const OutsideParts& of_a, const OutsideParts& of_b) {
+void ChangeList::compare_feeds(std::size_t i, std::size_t k, const OutsideParts& of_a, const OutsideParts& of_b,
+                               double length) {
   const MachineAction& left = a(i);
   const MachineAction& right = b(k);
   if (!left.is_motion() || !right.is_motion()) return;
@@ -183,7 +193,7 @@ void ChangeList::compare_feeds(std::size_t i, std::size_t k, const OutsideParts&
     return;
   }
   follow_value(feed_, ChangeKind::Feed,
-               {{i, i + 1, k, k + 1}, value_of(runs_.a, left), value_of(runs_.b, right), of_a, of_b});
+               {{i, i + 1, k, k + 1}, value_of(runs_.a, left), value_of(runs_.b, right), of_a, of_b, length});
 }
 
 void ChangeList::compare_sides(std::size_t i, std::size_t k) {
@@ -205,6 +215,7 @@ void ChangeList::follow_value(std::optional<OpenValue>& open, ChangeKind kind, O
   open->actions.b_end = next.actions.b_end;
   open->of_a.last = next.of_a.last;
   open->of_b.last = next.of_b.last;
+  open->length += next.length;
 }
 
 /// Compares the motions that go along each other in one step; where that is one of each, no length is needed.
@@ -226,7 +237,7 @@ void ChangeList::compare_overlaps() {
                                        std::clamp((begin + length - until) / length, 0.0, 1.0)}
                         : OutsideParts{};
     };
-    compare_feeds(i, k, outside(a_from, a_length), outside(b_from, b_length));
+    compare_feeds(i, k, outside(a_from, a_length), outside(b_from, b_length), until - from);
     compare_sides(i, k);
     from = until;
     if (n + 1 == overlaps_.size()) break;
@@ -257,6 +268,8 @@ void ChangeList::compare_feeds_alone(std::size_t i, std::size_t k) {
 void ChangeList::close(std::optional<OpenValue>& open, ChangeKind kind) {
   if (!open) return;
   OpenValue closed = std::move(*std::exchange(open, std::nullopt));
+  // From there to there is the same place.
+  if (closed.length <= options_.tolerance) return;
   BehaviorChange& change = add(kind, closed.actions);
   const auto outside = [](const RecordedRun& run, std::size_t begin, std::size_t end, const OutsideParts& parts) {
     return parts.first * seconds_of(run, begin, begin + 1) + parts.last * seconds_of(run, end - 1, end);
@@ -273,6 +286,7 @@ std::vector<BehaviorChange> ChangeList::take() {
   close_side();
   name_turned_frames();
   join_moved_rows();
+  join_paths_beside();
   join_moved_blocks();
   remove_idle_stops();
   for (auto& [change, place] : operations_) {
@@ -405,7 +419,7 @@ bool ChangeList::is_one_row(std::size_t first, std::size_t next) const {
   const Vec3 after = changes_[next].shift.value_or(b(other.b_begin).to.tip - a(other.a_begin).to.tip);
   constexpr double kBetweenRows = 4;  // A row ends where its vector is off by the tolerance.
   return (after - before).norm() <=
-         (are_rows ? kBetweenRows * options_.tolerance : std::max(before.norm(), after.norm()) / 2);
+         kBetweenRows * options_.tolerance + (are_rows ? 0 : std::max(before.norm(), after.norm()) / 2);
 }
 
 /// Motions of which each is moved by another vector than the one before it fall into rows of those that are the same
@@ -439,6 +453,204 @@ void ChangeList::join_moved_rows() {
     whole.new_motions = motion_count(runs_.b, all.b_begin, all.b_end);
   }
   remove(is_joined);
+}
+
+/// Whether a change says how the path differs, and by how much.
+bool ChangeList::is_path(std::size_t change) const {
+  const BehaviorChange& each = changes_[change];
+  if (each.kind == ChangeKind::Added || each.kind == ChangeKind::Removed) return true;
+  if (each.kind != ChangeKind::Moved && each.kind != ChangeKind::Shape) return false;
+  return each.distance.value_or(0) > 0 && each.turned == 0;
+}
+
+/// Whether a change goes on where others end.
+bool ChangeList::follows(const ActionRanges& all, const ActionRanges& next) const {
+  const auto has_nothing = [](const RecordedRun& run, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (run.actions[i].is_motion() || run.actions[i].kind == ActionKind::Tool) return false;
+    return true;
+  };
+  return next.b_begin >= all.b_begin && has_nothing(runs_.a, all.a_end, next.a_begin) &&
+         has_nothing(runs_.b, all.b_end, next.b_begin);
+}
+
+/// Whether both paths go along each other, from the start of some ranges to the end of the motions that close them, and
+/// go from rapid to feed in the same places; with `with_feeds`, from one feed to the other one, too. B and C rest.
+bool ChangeList::goes_beside(const ActionRanges& all, double distance, bool with_feeds) const {
+  struct FeedChange {
+    Vec3 place;
+    double feed = 0;
+  };
+  if (is_too_large(all.a_end - all.a_begin, all.b_end - all.b_begin)) return false;
+  struct WholePath {
+    std::vector<Vec3> chain;
+    std::vector<FeedChange> feeds;
+    geometry::Pose first;
+    bool turns = false;
+  };
+  const bool is_closed = all.a_end < runs_.a.actions.size() && all.b_end < runs_.b.actions.size() &&
+                         a(all.a_end).is_motion() && b(all.b_end).is_motion();
+  const auto path_of = [&](const RecordedRun& run, std::size_t begin, std::size_t end) {
+    const std::span actions = std::span(run.actions).subspan(begin, end - begin + (is_closed ? 1 : 0));
+    WholePath path{chain_of(run, actions, distance / 8), {}, {}};
+    double feed = -1;
+    for (const MachineAction& action : actions) {
+      if (!action.is_motion()) continue;
+      if (feed < 0) path.first = action.from;
+      for (const geometry::Pose& pose : {action.from, action.to})
+        path.turns = path.turns ||
+                     std::max(std::abs(pose.b - path.first.b), std::abs(pose.c - path.first.c)) > options_.tolerance;
+      const double next = with_feeds || action.is_rapid ? action.feed : 1;
+      if (feed < 0 || std::abs(next - feed) > kSameFeed * std::max(feed, next))
+        path.feeds.push_back({action.from.tip, next});
+      feed = next;
+    }
+    return path;
+  };
+  const WholePath of_a = path_of(runs_.a, all.a_begin, all.a_end);
+  const WholePath of_b = path_of(runs_.b, all.b_begin, all.b_end);
+  if (of_a.turns || of_b.turns || of_a.chain.empty() || of_b.chain.empty()) return false;
+  if (std::max(std::abs(of_a.first.b - of_b.first.b), std::abs(of_a.first.c - of_b.first.c)) > options_.tolerance)
+    return false;
+  const auto is_same = [&](const FeedChange& left, const FeedChange& right) {
+    return (left.place - right.place).norm() <= distance &&
+           std::abs(left.feed - right.feed) <= kSameFeed * std::max(left.feed, right.feed);
+  };
+  if (!std::equal(of_a.feeds.begin(), of_a.feeds.end(), of_b.feeds.begin(), of_b.feeds.end(), is_same)) return false;
+  if (is_too_large(of_a.chain.size(), of_b.chain.size())) return false;
+  if (runs_.budget != nullptr) {
+    const std::size_t cells = of_a.chain.size() * of_b.chain.size();
+    if (cells > runs_.budget->distances) return false;
+    runs_.budget->distances -= cells;
+  }
+  return goes_along(of_a.chain, of_b.chain, distance);
+}
+
+/// The motions that end beside each other, one of each, and by how much they do at most; none where they do not.
+std::optional<std::pair<ActionRanges, double>> ChangeList::moved_ends(const ActionRanges& all, double farthest) const {
+  if (all.a_end - all.a_begin != all.b_end - all.b_begin) return std::nullopt;
+  ActionRanges moved = all;
+  double end_distance = 0;
+  for (std::size_t i = all.a_begin, k = all.b_begin; i < all.a_end; ++i, ++k) {
+    if (!a(i).is_line() || !b(k).is_line()) return std::nullopt;
+    const double distance = (b(k).to.tip - a(i).to.tip).norm();
+    end_distance = std::max(end_distance, distance);
+    // The first ones may end in the same place.
+    if (distance <= options_.tolerance && moved.a_begin == i) ++moved.a_begin, ++moved.b_begin;
+  }
+  if (end_distance > farthest || end_distance <= options_.tolerance) return std::nullopt;
+  while (ends_together(runs_, a(moved.a_end - 1), b(moved.b_end - 1), Vec3::Zero())) --moved.a_end, --moved.b_end;
+  return std::pair(moved, end_distance);
+}
+
+/// Some ranges up to the motions that close them, one of each: a line may be in parts.
+ActionRanges ChangeList::up_to_closing(ActionRanges all) const {
+  constexpr std::size_t kMaxParts = 40;
+  const auto is_there = [](const RecordedRun& run, std::size_t i) {
+    return i < run.actions.size() && run.actions[i].is_motion();
+  };
+  for (std::size_t parts = 0; parts < kMaxParts; ++parts)
+    for (std::size_t m = 0; m <= parts; ++m)
+      for (const auto& [i, k] :
+           {std::pair(all.a_end + parts, all.b_end + m), std::pair(all.a_end + m, all.b_end + parts)})
+        if (is_there(runs_.a, i) && is_there(runs_.b, k) && ends_together(runs_, a(i), b(k), Vec3::Zero()))
+          return {all.a_begin, i, all.b_begin, k};
+  return all;
+}
+
+/// Whether changes that follow each other may come from taking the wrong motions for each other: none of them moves one
+/// motion each by one vector, which is larger than what the tolerance makes of places beside each other.
+bool ChangeList::may_be_mistaken(std::span<const std::size_t> row) const {
+  constexpr double kWithinTolerance = 4;
+  const ActionRanges& first = places_[row.front()];
+  return std::none_of(row.begin(), row.end(), [&](std::size_t i) {
+    const ActionRanges& at = places_[i];
+    return changes_[i].shift && changes_[i].shift->norm() > kWithinTolerance * options_.tolerance &&
+           at.a_end - at.a_begin == at.b_end - at.b_begin && at.a_begin - first.a_begin == at.b_begin - first.b_begin;
+  });
+}
+
+/// Makes one change of changes that follow each other, if both paths go along each other nearer than what is reported,
+/// or if the motions end beside each other, one of each, not much farther: then the wrong ones have been taken for each
+/// other.
+bool ChangeList::join_path(std::span<const std::size_t> row, const ActionRanges& at, double reported) {
+  const bool is_mistaken = may_be_mistaken(row);
+  const double nearer = is_mistaken ? 0.75 : 0.5;
+  const ActionRanges all = up_to_closing(at);
+  const bool is_nearer = goes_beside(all, nearer * reported, false);
+  const auto moved = moved_ends(all, is_nearer ? reported : kBeside * reported);
+  if (!is_nearer && (!moved || !is_mistaken)) return false;
+  const double deviation = options_.tolerance / 8;
+  const auto chain = [&](const RecordedRun& run, std::size_t begin, std::size_t end) {
+    const bool is_closed = end < run.actions.size() && run.actions[end].is_motion();
+    return chain_of(run, std::span(run.actions).subspan(begin, end - begin + (is_closed ? 1 : 0)), deviation);
+  };
+  const std::optional<double> distance =
+      distance_of(chain(runs_.a, all.a_begin, all.a_end), chain(runs_.b, all.b_begin, all.b_end), 2 * deviation,
+                  runs_.budget == nullptr ? nullptr : &runs_.budget->distances);
+  if (!distance) return false;
+  places_[row.front()] = moved ? moved->first : all;
+  BehaviorChange& change = changes_[row.front()];
+  change = measured_change(moved ? ChangeKind::Moved : ChangeKind::Shape, places_[row.front()]);
+  if (moved) change.end_distance = moved->second;
+  change.distance = distance;
+  return true;
+}
+
+/// Names another path as moved, if its motions end beside those of the other run, one of each.
+void ChangeList::rename_moved(std::size_t change) {
+  if (changes_[change].kind != ChangeKind::Shape) return;
+  const auto moved = moved_ends(places_[change], kBeside * changes_[change].distance.value_or(0));
+  if (!moved) return;
+  const std::optional<double> distance = changes_[change].distance;
+  places_[change] = moved->first;
+  changes_[change] = measured_change(ChangeKind::Moved, moved->first);
+  changes_[change].end_distance = moved->second;
+  changes_[change].distance = distance;
+}
+
+/// Where motions are short, those of one run may be taken for neighbors of theirs. Changes that follow each other are
+/// one where the paths or the ends are nearer to each other than what is reported; and none where the tolerance allows
+/// all of it.
+void ChangeList::join_paths_beside() {
+  constexpr std::size_t kMaxRow = 64;
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < changes_.size(); ++i)
+    if (is_path(i)) order.push_back(i);
+  const auto key = [&](std::size_t i) { return std::pair(places_[i].a_begin, places_[i].b_begin); };
+  std::stable_sort(order.begin(), order.end(), [&](auto left, auto right) { return key(left) < key(right); });
+  std::vector<bool> is_removed(changes_.size());
+  for (std::size_t first = 0; first < order.size();) {
+    std::vector<ActionRanges> rows = {places_[order[first]]};  // Up to each of the next changes.
+    std::vector<double> reported;
+    const auto distance_in = [&](std::size_t i) {
+      const BehaviorChange& change = changes_[order[i]];
+      return std::max(change.distance.value_or(0), change.end_distance);
+    };
+    reported.push_back(distance_in(first));
+    while (first + rows.size() < order.size() && rows.size() < kMaxRow) {
+      const std::size_t next = first + rows.size();
+      const ActionRanges& all = rows.back();
+      const ActionRanges& at = places_[order[next]];
+      if (!follows(all, at)) break;
+      reported.push_back(std::max(reported.back(), distance_in(next)));
+      rows.push_back({all.a_begin, std::max(all.a_end, at.a_end), all.b_begin, std::max(all.b_end, at.b_end)});
+    }
+    std::size_t count = rows.size();
+    for (; count > 0; --count) {
+      const ActionRanges& all = rows[count - 1];
+      const BehaviorChange& alone = changes_[order[first]];
+      // The distance of one path from the other one says that they are not the same.
+      const bool is_known = count == 1 && !alone.shift && alone.distance.value_or(0) > options_.tolerance;
+      const bool is_same = !is_known && goes_beside(up_to_closing(all), options_.tolerance, true);
+      if (is_same) is_removed[order[first]] = true;
+      if (!is_same && count == 1) rename_moved(order[first]);
+      if (is_same || (count > 1 && join_path(std::span(order).subspan(first, count), all, reported[count - 1]))) break;
+    }
+    for (std::size_t i = 1; i < count; ++i) is_removed[order[first + i]] = true;
+    first += std::max<std::size_t>(count, 1);
+  }
+  remove(is_removed);
 }
 
 /// Motions that are removed in one place and added in another one have another order.

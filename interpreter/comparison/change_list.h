@@ -1,6 +1,8 @@
 #pragma once
 
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -80,15 +82,19 @@ class ChangeList {
     std::string new_value;
     OutsideParts of_a = {};
     OutsideParts of_b = {};
+    /// Of the path with this value, mm, where that is known.
+    double length = std::numeric_limits<double>::infinity();
   };
 
   const MachineAction& a(std::size_t i) const { return runs_.a.actions[i]; }
   const MachineAction& b(std::size_t i) const { return runs_.b.actions[i]; }
+  BehaviorChange measured_change(ChangeKind kind, const ActionRanges& at) const;
   void close_shift();
   void close_feed() { close(feed_, ChangeKind::Feed); }
   void close_side() { close(side_, ChangeKind::Function); }
   void compare_overlaps();
-  void compare_feeds(std::size_t i, std::size_t k, const OutsideParts& of_a, const OutsideParts& of_b);
+  /// Motions that go along each other for some length, mm.
+  void compare_feeds(std::size_t i, std::size_t k, const OutsideParts& of_a, const OutsideParts& of_b, double length);
   void close(std::optional<OpenValue>& open, ChangeKind kind);
   void follow_value(std::optional<OpenValue>& open, ChangeKind kind, OpenValue next);
   void name_turned_frames();
@@ -97,6 +103,15 @@ class ChangeList {
   void join_moved_blocks();
   void join_moved_rows();
   bool is_one_row(std::size_t first, std::size_t next) const;
+  void join_paths_beside();
+  bool is_path(std::size_t change) const;
+  bool follows(const ActionRanges& all, const ActionRanges& next) const;
+  void rename_moved(std::size_t change);
+  ActionRanges up_to_closing(ActionRanges all) const;
+  bool may_be_mistaken(std::span<const std::size_t> row) const;
+  bool join_path(std::span<const std::size_t> row, const ActionRanges& at, double reported);
+  bool goes_beside(const ActionRanges& all, double distance, bool with_feeds) const;
+  std::optional<std::pair<ActionRanges, double>> moved_ends(const ActionRanges& all, double farthest) const;
   void remove_idle_stops();
   void remove(const std::vector<bool>& is_removed);
   bool is_same_block(const ActionRanges& removed, const ActionRanges& added) const;

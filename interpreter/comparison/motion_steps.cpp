@@ -261,6 +261,11 @@ bool MotionBlock::is_same_path() const {
                      [](const MotionStep& step) { return step.kind == MotionStep::Kind::Same; });
 }
 
+std::size_t MotionBlock::difference_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(steps.begin(), steps.end(), [](const MotionStep& step) { return !step.is_in_place; }));
+}
+
 DifferentPart part_at(const std::vector<AlignedPiece>& pieces, std::size_t& index) {
   const AlignedPiece& piece = pieces[index];
   DifferentPart part{.actions = {piece.a_begin, piece.a_end, piece.b_begin, piece.b_end},
@@ -323,7 +328,7 @@ std::optional<MotionBlock> motion_block(const RunPair& runs, const DifferentPart
   steps = steps_of(joined_motions, part, are_all);
   if (!steps) return block;
   joined.steps = std::move(*steps);
-  return joined;
+  return joined.difference_count() < block.difference_count() ? joined : block;
 }
 
 }  // namespace isocnc::comparison

@@ -44,6 +44,8 @@ struct MotionBlock {
   std::vector<MotionStep> steps;  ///< Through all motions of both, in their order.
 
   bool is_same_path() const;
+  /// How many steps are not in place.
+  std::size_t difference_count() const;
 };
 
 /// A part of both runs in which they differ.

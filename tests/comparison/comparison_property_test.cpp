@@ -114,6 +114,17 @@ double dense_distance(const std::vector<geometry::Vec3>& from, const std::vector
   return farthest;
 }
 
+/// The greatest distance of the points of one row from those of another one.
+double distance_of_points(const std::vector<geometry::Vec3>& from, const std::vector<geometry::Vec3>& to) {
+  double farthest = 0;
+  for (const geometry::Vec3& point : from) {
+    double nearest = 1e300;
+    for (const geometry::Vec3& other : to) nearest = std::min(nearest, (other - point).squaredNorm());
+    farthest = std::max(farthest, nearest);
+  }
+  return std::sqrt(farthest);
+}
+
 geometry::Vec3 point_of(const std::array<int, 3>& micrometers) {
   return geometry::Vec3(micrometers[0], micrometers[1], micrometers[2]) / 1000;
 }
@@ -248,6 +259,48 @@ TEST(ComparisonProperty, APlaceIsMovedAloneBesideLinesInOtherParts) {
   EXPECT_GT(compared, tries() / 2);
 }
 
+/// Random waves in short lines, of which a part is lifted: one change, as far as that is, however short the lines are.
+TEST(ComparisonProperty, ALocalEditOfAFinePathIsFoundAlone) {
+  for (std::uint64_t seed = 1; seed <= tries() / 6; ++seed) {
+    support::Random random(seed);
+    const double step = random.between(4, 50) / 100.0;
+    const double length = random.between(20, 60) / 10.0;
+    const double height = random.between(3, 100) / 100.0;
+    const double depth = random.between(0, 60) / 10.0;
+    const int count = random.between(300, 1200);
+    const double tolerance = random.one_in(3) ? 0.01 : 0.001;
+    const int middle = random.between(count / 3, count / 2);
+    const int half = std::min(count / 4, static_cast<int>(random.between(10, 80) / 10.0 / step) + 1);
+    std::string old_program = "M06 T101001\nG00 X0 Y0 Z0\n";
+    std::string new_program = old_program;
+    std::vector<geometry::Vec3> old_path;
+    std::vector<geometry::Vec3> new_path;
+    for (int i = 1; i <= count; ++i) {
+      const geometry::Vec3 place(i * step, depth * std::sin(i * step / length), 0.1 * depth * std::cos(i * step / 11));
+      const double part = std::max(0.0, 1 - std::pow(static_cast<double>(i - middle) / half, 2));
+      const geometry::Vec3 lifted = place + geometry::Vec3(0, 0, height * part * part);
+      old_program += fmt::format("G01 X{:.4f} Y{:.4f} Z{:.4f} F1000\n", place.x(), place.y(), place.z());
+      new_program += fmt::format("G01 X{:.4f} Y{:.4f} Z{:.4f} F1000\n", lifted.x(), lifted.y(), lifted.z());
+      if (std::abs(i - middle) > half + 1) continue;
+      old_path.push_back(place);
+      new_path.push_back(lifted);
+    }
+    const RecordedRun old_run = recorded(old_program + "G00 Z50\nM02\n");
+    const RecordedRun new_run = recorded(new_program + "G00 Z50\nM02\n");
+    const std::vector<BehaviorChange> changes = compare(old_run, new_run, {.tolerance = tolerance});
+    ASSERT_EQ(shown(swapped(compare(new_run, old_run, {.tolerance = tolerance}))), shown(changes)) << seed;
+    ASSERT_EQ(changes.size(), 1U) << seed << '\n' << shown(changes);
+    ASSERT_TRUE(changes[0].kind == ChangeKind::Moved || changes[0].kind == ChangeKind::Shape) << shown(changes);
+    ASSERT_TRUE(changes[0].distance) << seed << shown(changes);
+    const double reference = std::max(distance_of_points(old_path, new_path), distance_of_points(new_path, old_path));
+    ASSERT_NEAR(*changes[0].distance, reference, step / 2 + 2 * tolerance) << seed << shown(changes);
+    const double first = middle - half + 1;  // Lines from 0; two stand before the path.
+    const double last = middle + half + 1;
+    ASSERT_GE(static_cast<double>(changes[0].old_lines->first), first - 3) << seed << shown(changes);
+    ASSERT_LE(static_cast<double>(changes[0].old_lines->last), last + 3) << seed << shown(changes);
+  }
+}
+
 // A path that differs, beside another change.
 
 /// The program as lines.
@@ -284,17 +337,6 @@ std::vector<geometry::Vec3> dense_arc(const geometry::Vec3& from, const geometry
     points.back().z() = from.z() + part * (to.z() - from.z());
   }
   return points;
-}
-
-/// The greatest distance of the points of one row from those of another one.
-double distance_of_points(const std::vector<geometry::Vec3>& from, const std::vector<geometry::Vec3>& to) {
-  double farthest = 0;
-  for (const geometry::Vec3& point : from) {
-    double nearest = 1e300;
-    for (const geometry::Vec3& other : to) nearest = std::min(nearest, (other - point).squaredNorm());
-    farthest = std::max(farthest, nearest);
-  }
-  return std::sqrt(farthest);
 }
 
 enum class Beside { Nothing, Feed, Dwell, DwellLost, Function, Speed, Frame, LineBefore, LineAfter };

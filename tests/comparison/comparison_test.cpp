@@ -517,6 +517,62 @@ TEST(Comparison, ShowsTheSideOfCompensationByThePathWhereTheRadiusIsKnown) {
   EXPECT_EQ(text.find("function"), std::string::npos) << text;
 }
 
+/// The tool's radius is 3 mm: so far the path is away from the contour, whatever of it ends beside what.
+TEST(Comparison, NamesALostCompensationByTheRadius) {
+  const auto program = [](const std::string& side) {
+    return "M06 T101001\nS1000 M03\nG00 X-40 Y-40 Z10\nG01 Z0 F1000\nX-20 Y-20\n" + side +
+           "G01 X0 Y-20\nY50\nX80\nY0\nX-20\nG40\nG00 Z20\nM02\n";
+  };
+  EXPECT_EQ(shown(changes_between(program("G41 "), program(""))),
+            "shape 6-12|6-12: another path, 6 motions instead of 9, up to 3 mm away\n");
+  EXPECT_EQ(shown(changes_between(program("G41 "), program("G41 "))), "");
+}
+
+/// A path of short lines along Y = 5 sin(X / 7), with bumps in Y of some height beside some X.
+std::string fine_path(double step, double height, const std::vector<double>& bumps) {
+  std::string program = kHead + "G01 Z-5 F2000\n";
+  for (int i = 1; i * step < 150; ++i) {
+    const double x = i * step;
+    double y = 5 * std::sin(x / 7);
+    for (const double bump : bumps) y += height * std::exp(-(x - bump) * (x - bump) / 4);
+    program += fmt::format("X{:.3f} Y{:.3f}\n", x, y);
+  }
+  return program + "G00 Z40\nM02\n";
+}
+
+struct BumpCase {
+  double step;
+  double height;
+  double tolerance;
+};
+
+TEST(Comparison, NamesABumpOfAFinePathOnce) {
+  // Neighbors of these motions go nearly the same way, and end nearer than the bump is high or the tolerance large.
+  for (const auto& [step, height, tolerance] :
+       {BumpCase{0.2, 0.5, 0.001}, BumpCase{0.2, 0.12, 0.001}, BumpCase{0.1, 0.05, 0.001}, BumpCase{0.1, 2, 0.001},
+        BumpCase{0.05, 0.12, 0.001}, BumpCase{0.05, 0.5, 0.01}, BumpCase{0.1, 0.5, 0.1}, BumpCase{0.05, 0.5, 0.1},
+        BumpCase{0.2, 0.5, 0.2}}) {
+    const std::string message = fmt::format("step {}, height {}, tolerance {}", step, height, tolerance);
+    const std::string old_program = fine_path(step, height, {});
+    const std::vector<BehaviorChange> one =
+        changes_between(old_program, fine_path(step, height, {60}), {.tolerance = tolerance});
+    ASSERT_EQ(one.size(), 1U) << message << '\n' << shown(one);
+    EXPECT_EQ(one[0].kind, ChangeKind::Moved) << message << shown(one);
+    EXPECT_NEAR(std::max(one[0].distance.value_or(0), one[0].end_distance), height, std::max(0.001, tolerance))
+        << message << shown(one);
+    // The bump is 0.0004 times as high 5.6 mm beside it.
+    const double line_of_middle = 4 + 60 / step;
+    EXPECT_NEAR(static_cast<double>(one[0].old_lines->first), line_of_middle, 5.6 / step + 3) << message << shown(one);
+    EXPECT_NEAR(static_cast<double>(one[0].old_lines->last), line_of_middle, 5.6 / step + 3) << message << shown(one);
+    const std::vector<BehaviorChange> two =
+        changes_between(old_program, fine_path(step, height, {30, 90}), {.tolerance = tolerance});
+    EXPECT_EQ(two.size(), 2U) << message << '\n' << shown(two);
+  }
+  for (const double tolerance : {0.1, 0.2})
+    EXPECT_EQ(shown(changes_between(fine_path(0.05, 0, {}), fine_path(0.05, 0.09, {60}), {.tolerance = tolerance})),
+              "");
+}
+
 TEST(Comparison, SpeaksItalian) {
   const std::vector<BehaviorChange> changes = changes_between(kSquare, square("X100\n", "X101\n"));
   ASSERT_EQ(changes.size(), 1U);
