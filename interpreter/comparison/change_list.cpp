@@ -288,6 +288,7 @@ std::vector<BehaviorChange> ChangeList::take() {
   join_moved_rows();
   join_paths_beside();
   join_moved_blocks();
+  name_exchanged_blocks();
   remove_idle_stops();
   for (auto& [change, place] : operations_) {
     changes_.push_back(std::move(change));
@@ -670,10 +671,98 @@ void ChangeList::join_moved_blocks() {
       change.new_motions = changes_[k].new_motions;
       change.new_tool = changes_[k].new_tool;
       is_joined[k] = true;
+      if (const auto retract = retract_after(places_[i], places_[k])) is_joined[*retract] = true;
       break;
     }
   }
   remove(is_joined);
+}
+
+/// The change of motions that go the same way as before from where what is removed or added ends: the retract after the
+/// last hole.
+std::optional<std::size_t> ChangeList::retract_after(const ActionRanges& removed, const ActionRanges& added) const {
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    const ActionRanges& at = places_[i];
+    if (changes_[i].kind != ChangeKind::Moved || !changes_[i].shift) continue;
+    if (at.a_begin != removed.a_end && at.b_begin != added.b_end) continue;
+    const Vec3 start = b(at.b_begin).from.tip - a(at.a_begin).from.tip;
+    if ((start - *changes_[i].shift).norm() <= options_.tolerance) return i;
+  }
+  return std::nullopt;
+}
+
+/// Whether a range of one run has the actions of a range of the other one, in any order.
+bool ChangeList::has_same_actions(const ActionRanges& of_a, const ActionRanges& of_b) const {
+  constexpr std::size_t kMaxActions = 256;
+  const std::size_t count = of_a.a_end - of_a.a_begin;
+  if (of_b.b_end - of_b.b_begin != count || count > kMaxActions) return false;
+  std::vector<bool> is_used(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto is_it = [&](std::size_t k) {
+      return !is_used[k] && is_same_alone(runs_, options_, a(of_a.a_begin + i), b(of_b.b_begin + k));
+    };
+    std::size_t k = i;  // Most blocks keep the order of their actions.
+    if (!is_it(k))
+      for (k = 0; k < count && !is_it(k);) ++k;
+    if (k == count) return false;
+    is_used[k] = true;
+  }
+  return true;
+}
+
+/// Whether a moved block of the first run stands in the place of another one in the second run. What goes the same way
+/// after one of them starts elsewhere and is no part of it: the retract after the last hole.
+bool ChangeList::is_exchanged(std::size_t block, std::size_t place) const {
+  ActionRanges of_a = places_[block];
+  ActionRanges of_b = places_[place];
+  const std::size_t a_count = of_a.a_end - of_a.a_begin;
+  const std::size_t b_count = of_b.b_end - of_b.b_begin;
+  constexpr std::size_t kMinBlock = 2;
+  const std::size_t count = std::min(a_count, b_count);
+  if (a_count != b_count && count < kMinBlock) return false;
+  const ActionRanges& longer = places_[a_count > b_count ? block : place];
+  for (std::size_t n = count; n < std::max(a_count, b_count); ++n) {
+    const MachineAction& left = a(longer.a_begin + n);
+    const MachineAction& right = b(longer.b_begin + n);
+    const Vec3 other_way = (right.to.tip - right.from.tip) - (left.to.tip - left.from.tip);
+    if (!left.is_line() || !right.is_line() || other_way.norm() > options_.tolerance) return false;
+  }
+  of_a.a_end = of_a.a_begin + count;
+  of_b.b_end = of_b.b_begin + count;
+  return has_same_actions(of_a, of_b);
+}
+
+/// Motions that end elsewhere because each of some blocks stands in the place of another one of them, as holes that are
+/// exchanged, have another order.
+void ChangeList::name_exchanged_blocks() {
+  constexpr std::size_t kMaxChanges = 500;
+  std::vector<std::size_t> moved;
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    const ActionRanges& at = places_[i];
+    if (changes_[i].kind == ChangeKind::Moved && at.a_end - at.a_begin == at.b_end - at.b_begin) moved.push_back(i);
+  }
+  if (moved.size() < 2 || moved.size() > kMaxChanges) return;
+  std::vector<std::size_t> now(moved.size(), moved.size());  // In which place of `moved` each block is now.
+  std::vector<bool> is_taken(moved.size());
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      if (k == i || is_taken[k] || !is_exchanged(moved[i], moved[k])) continue;
+      now[i] = k;
+      is_taken[k] = true;
+      break;
+    }
+  const std::vector<ActionRanges> places = places_;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    // Around a circle: what stands in the place of each block is one of them, too.
+    std::size_t k = now[i];
+    for (std::size_t n = 0; n < moved.size() && k != i && k < moved.size(); ++n) k = now[k];
+    if (k != i) continue;
+    const ActionRanges& of_b = places[moved[now[i]]];
+    ActionRanges& at = places_[moved[i]];
+    const std::size_t count = std::min(at.a_end - at.a_begin, of_b.b_end - of_b.b_begin);
+    at = {at.a_begin, at.a_begin + count, of_b.b_begin, of_b.b_begin + count};
+    changes_[moved[i]] = measured_change(ChangeKind::Reordered, at);
+  }
 }
 
 void ChangeList::remove(const std::vector<bool>& is_removed) {

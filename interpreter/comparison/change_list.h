@@ -101,6 +101,10 @@ class ChangeList {
   bool is_by_frames(const ActionRanges& at) const;
   bool is_by_frames(const MachineAction& left, const MachineAction& right) const;
   void join_moved_blocks();
+  void name_exchanged_blocks();
+  bool is_exchanged(std::size_t block, std::size_t place) const;
+  bool has_same_actions(const ActionRanges& of_a, const ActionRanges& of_b) const;
+  std::optional<std::size_t> retract_after(const ActionRanges& removed, const ActionRanges& added) const;
   void join_moved_rows();
   bool is_one_row(std::size_t first, std::size_t next) const;
   void join_paths_beside();

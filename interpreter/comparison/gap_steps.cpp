@@ -19,6 +19,9 @@ static float replacement_cost(const RunPair& runs, const MachineAction& a, const
   constexpr float kOtherWay = 0.5F;
   if (ends_together(runs, a, b, before) || ends_together(runs, a, b, after))
     return goes_same_way(runs, a, b) ? 0.F : kOtherWay;
+  const Vec3 other_way = (b.to.tip - b.from.tip) - (a.to.tip - a.from.tip);
+  // The same way elsewhere: the retract after the last hole.
+  if (a.is_line() && b.is_line() && a.is_rapid == b.is_rapid && other_way.norm() <= runs.tolerance) return 1;
   const double distance = (b.to.tip - a.to.tip - before).norm();
   const double length = 1 + (a.to.tip - a.from.tip).norm() + (b.to.tip - b.from.tip).norm();
   return 1 + 0.9F * static_cast<float>(std::min(1.0, distance / length));

@@ -301,6 +301,55 @@ TEST(ComparisonProperty, ALocalEditOfAFinePathIsFoundAlone) {
   }
 }
 
+/// Holes in random places, of which two are exchanged or one comes at another time: that alone is found.
+TEST(ComparisonProperty, HolesAtOtherTimesAreAnotherOrderAlone) {
+  for (std::uint64_t seed = 1; seed <= tries(); ++seed) {
+    support::Random random(seed);
+    const auto count = static_cast<std::size_t>(random.between(4, 30));
+    std::vector<std::array<int, 3>> holes;
+    const bool is_grid = random.one_in(2);
+    const int depth = random.between(1, 3);
+    for (std::size_t i = 0; i < count; ++i) {
+      const int x = is_grid ? 30 * static_cast<int>(i % 5) : static_cast<int>(7 * i) + random.between(0, 5);
+      const int y = is_grid ? 40 * static_cast<int>(i / 5) : random.between(-90, 90);
+      holes.push_back({x, y, is_grid ? depth : random.between(1, 20)});
+    }
+    auto changed = holes;
+    const std::size_t from = random.below(count);
+    const std::size_t to = random.below(count);
+    if (from == to) continue;
+    const bool are_neighbors = std::max(from, to) - std::min(from, to) == 1;
+    const bool are_swapped = random.one_in(2);
+    // With another depth, the retract after the last hole is moved otherwise than the rest of it.
+    if (are_swapped && std::max(from, to) + 1 == count && holes[from][2] != holes[to][2]) continue;
+    if (are_swapped) {
+      std::swap(changed[from], changed[to]);
+    } else {
+      changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(from));
+      changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(to), holes[from]);
+    }
+    const auto program = [](const std::vector<std::array<int, 3>>& places) {
+      std::string text = "M06 T101001\nS12000 M03\nG00 X-50 Y-50 Z40\nZ5\n";
+      for (const auto& [x, y, z] : places) text += fmt::format("G00 X{} Y{}\nZ2\nG01 Z{} F500\nG00 Z5\n", x, y, -z);
+      return text + "Z40\nM02\n";
+    };
+    const std::string before = program(holes);
+    const std::string after = program(changed);
+    const std::vector<BehaviorChange> changes = symmetric_changes(before, after);
+    ASSERT_EQ(changes.size(), are_swapped && !are_neighbors ? 2U : 1U)
+        << shown(changes) << failure(seed, before, after);
+    const auto lines = [](std::size_t hole) { return ChangedLines{4 + 4 * hole, 7 + 4 * hole}; };
+    for (const BehaviorChange& change : changes) {
+      ASSERT_EQ(change.kind, ChangeKind::Reordered) << shown(changes) << failure(seed, before, after);
+      if (are_neighbors) continue;  // Either of them may be the one that has moved.
+      const bool is_other = change.old_lines == lines(to);
+      ASSERT_EQ(change.old_lines, lines(is_other ? to : from)) << shown(changes) << failure(seed, before, after);
+      ASSERT_EQ(change.new_lines, lines(is_other ? from : to)) << shown(changes) << failure(seed, before, after);
+      ASSERT_TRUE(are_swapped || !is_other) << shown(changes) << failure(seed, before, after);
+    }
+  }
+}
+
 // A path that differs, beside another change.
 
 /// The program as lines.

@@ -42,6 +42,13 @@ std::string square(const std::string& what, const std::string& with) { return re
 const std::string kRow =
     "M06 T101001\nG91\nG00 X10 Y5\nG01 Z-3 F500\nG00 Z3\nX20\nG01 Z-3\nG00 Z3\nX20\nG01 Z-3\nG00 Z3\nG90\nX0 Y0\nM02\n";
 
+/// Holes at some X, four lines each from line 5 on.
+std::string holes(const std::vector<int>& places) {
+  std::string program = kHead + "Z5\n";
+  for (const int x : places) program += fmt::format("G00 X{} Y0\nZ2\nG01 Z-10 F500\nG00 Z5\n", x);
+  return program + "Z40\nM02\n";
+}
+
 /// Operations on parts of a table, each by its tool: its lines are 9, from its tool change to its M05.
 std::string operations(const std::string& tools) {
   std::string program;
@@ -131,7 +138,7 @@ const ComparisonCase kCases[] = {
      "moved 5-6|5: B or C turned by up to 1 degree\n"},
     {"CutLostBeforeARetraction", kPlunged + "X100 F8000\nG00 Z50\nX150 Y20\nG01 Z-5 F2000\nM02\n",
      kPlunged + "G00 Z50\nX150 Y20\nG01 Z-5 F2000\nM02\n",
-     "shape 5-6|5: another path, 1 motion instead of 2, up to 55 mm away\n"},
+     "removed 5|-: removed: 1 motion\nmoved 6|5: moved by X-90\n"},
     {"CutThatBecomesARapid", kPlunged + "X100 F8000\nG00 Z50\nX150 Y20\nG01 Z-5 F2000\nM02\n",
      kPlunged + "G00 X101\nX150 Y20 Z50\nG01 Z-5 F2000\nM02\n",
      "shape 5-6|5: another path, 1 motion instead of 2, up to 37.333 mm away\nfeed 5|5: G00 instead of F8000\n"},
@@ -184,6 +191,26 @@ const ComparisonCase kCases[] = {
     {"LastHoleLost", kHead + "X20 Y0\nG01 Z0 F500\nG00 Z5\nX40\nG01 Z0\nG00 Z5\nX60\nG01 Z0\nG00 Z5\nG00 Z50\nM02\n",
      kHead + "X20 Y0\nG01 Z0 F500\nG00 Z5\nX40\nG01 Z0\nG00 Z5\nG00 Z50\nM02\n",
      "removed 10-12|-: removed: 3 motions\nmoved 13|10: moved by X-20\n"},
+    // Holes at other times: exchanged, in a circle, and one of them last.
+    {"HolesSwapped", holes({20, 40, 60, 80, 100}), holes({20, 80, 60, 40, 100}),
+     "reordered 9-12|17-20: order changed\nreordered 17-20|9-12: order changed\n"},
+    {"HoleSwappedWithTheLastOne", holes({20, 40, 60, 80, 100}), holes({20, 100, 60, 80, 40}),
+     "reordered 9-12|21-24: order changed\nreordered 21-24|9-12: order changed\n"},
+    {"HolesInACircle", holes({20, 40, 60, 80, 100, 120, 140}), holes({20, 80, 60, 120, 100, 40, 140}),
+     "reordered 9-12|25-28: order changed\nreordered 17-20|9-12: order changed\nreordered 25-28|17-20: order "
+     "changed\n"},
+    {"NeighborsSwapped", holes({20, 40, 60, 80}), holes({20, 60, 40, 80}), "reordered 9-12|13-16: order changed\n"},
+    {"RowOfHolesTheOtherWayAround", holes({20, 40, 60, 80, 100, 120}), holes({100, 80, 60, 40, 20, 120}),
+     "reordered 5-12|17-24: order changed\nreordered 17-24|5-12: order changed\n"},
+    {"HoleLater", holes({20, 40, 60, 80, 100}), holes({20, 60, 80, 40, 100}), "reordered 9-12|17-20: order changed\n"},
+    {"HoleMovedToTheEnd", holes({20, 40, 60, 80, 100}), holes({20, 60, 80, 100, 40}),
+     "reordered 9-12|21-24: order changed\n"},
+    {"LastHoleMovedToTheStart", holes({20, 40, 60, 80, 100}), holes({100, 20, 40, 60, 80}),
+     "reordered 21-24|5-8: order changed\n"},
+    {"AnotherHoleAtTheEnd", holes({20, 40, 60, 80, 100}), holes({20, 60, 80, 100, 41}),
+     "removed 9-12|-: removed: 4 motions\nadded -|21-24: added: 4 motions\nmoved 25|25: moved by X-59\n"},
+    {"HolesMovedNotSwapped", holes({20, 40, 60, 80, 100}), holes({20, 80, 60, 41, 100}),
+     "moved 9-12|9-12: moved by X40\nmoved 17-20|17-20: moved by X-39\n"},
     {"LinesSwapped", kHead + "X50 Y50\nX100 Y0\nX0 Y7\nM02\n", kHead + "X100 Y0\nX50 Y50\nX0 Y7\nM02\n",
      "reordered 4-5|4-5: order changed\n"},
     {"IncrementsSwapped", kHead + "G91\nX50 Y50\nX100 Y0\nX9 Y7\nM02\n", kHead + "G91\nX100 Y0\nX50 Y50\nX9 Y7\nM02\n",
