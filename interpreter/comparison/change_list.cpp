@@ -158,9 +158,23 @@ void ChangeList::follow_shift(const ActionRanges& at, const Vec3& shift) {
   if (b_end > at.b_begin) shift_->actions.b_end = b_end;
 }
 
-/// The line that has set a frame; none for the one in force at the start.
-static std::optional<std::size_t> line_of(const RecordedRun& run, std::uint32_t frame) {
-  return frame == 0 ? std::nullopt : std::optional(run.frames[frame].line);
+/// The lines that have made two frames different: those of their zeros, if these differ. None for what is in force at
+/// the start.
+ChangeList::FrameCause ChangeList::cause_of(const MachineAction& left, const MachineAction& right) const {
+  const ActionFrame& old_frame = runs_.a.frames[left.frame];
+  const ActionFrame& new_frame = runs_.b.frames[right.frame];
+  if ((new_frame.zero - old_frame.zero).norm() > options_.tolerance) return {old_frame.zero_line, new_frame.zero_line};
+  const auto line_of = [](const ActionFrame& frame, std::uint32_t index) {
+    return index == 0 ? std::nullopt : std::optional(frame.line);
+  };
+  return {line_of(old_frame, left.frame), line_of(new_frame, right.frame)};
+}
+
+/// Whether the same frame is in force in both.
+bool ChangeList::has_same_frame(const MachineAction& left, const MachineAction& right) const {
+  const geometry::Frame& old_frame = runs_.a.frames[left.frame].frame;
+  const geometry::Frame& new_frame = runs_.b.frames[right.frame].frame;
+  return (new_frame.origin - old_frame.origin).norm() <= options_.tolerance && old_frame.axes.isApprox(new_frame.axes);
 }
 
 void ChangeList::close_shift() {
@@ -174,8 +188,9 @@ void ChangeList::close_shift() {
   change.distance = open.shift.norm();
   change.shift = open.shift;
   if (!is_frame) return;
-  change.old_cause = line_of(runs_.a, a(open.actions.a_begin).frame);
-  change.new_cause = line_of(runs_.b, b(open.actions.b_begin).frame);
+  const FrameCause cause = cause_of(a(open.actions.a_begin), b(open.actions.b_begin));
+  change.old_cause = cause.old_line;
+  change.new_cause = cause.new_line;
 }
 
 void ChangeList::compare_feeds(std::size_t i, std::size_t k) {
@@ -284,7 +299,7 @@ std::vector<BehaviorChange> ChangeList::take() {
   close_shift();
   close_feed();
   close_side();
-  name_turned_frames();
+  name_frames();
   join_moved_rows();
   join_paths_beside();
   join_moved_blocks();
@@ -328,7 +343,8 @@ void ChangeList::add_operation(BehaviorChange change, const ActionRanges& place)
   operations_.emplace_back(std::move(change), place);
 }
 
-/// Whether two motions are the same, each in the frame that is in force there.
+/// Whether two motions are the same, each in the frame that is in force there. Coordinates that neither of them gives
+/// remain where the motions start.
 bool ChangeList::is_by_frames(const MachineAction& left, const MachineAction& right) const {
   if (!left.is_motion() || !right.is_motion()) return false;
   const geometry::Frame& old_frame = runs_.a.frames[left.frame].frame;
@@ -337,7 +353,15 @@ bool ChangeList::is_by_frames(const MachineAction& left, const MachineAction& ri
     return (new_frame.to_outer(old_frame.to_inner(from_a)) - from_b).norm() <= options_.tolerance;
   };
   if (std::max(std::abs(left.to.b - right.to.b), std::abs(left.to.c - right.to.c)) > options_.tolerance) return false;
-  if (!is_same(left.to.tip, right.to.tip)) return false;
+  const Vec3 old_from = old_frame.to_inner(left.from.tip);
+  const Vec3 new_from = new_frame.to_inner(right.from.tip);
+  const Vec3 old_to = old_frame.to_inner(left.to.tip);
+  const Vec3 new_to = new_frame.to_inner(right.to.tip);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto differ = [&](double one, double other) { return std::abs(one - other) > options_.tolerance; };
+    const bool is_kept = !differ(old_from[axis], old_to[axis]) && !differ(new_from[axis], new_to[axis]);
+    if (!is_kept && differ(old_to[axis], new_to[axis])) return false;
+  }
   const bool is_arc = left.arc != MachineAction::kNone;
   if (!is_arc || right.arc == MachineAction::kNone) return is_arc == (right.arc != MachineAction::kNone);
   const ActionArc& left_arc = runs_.a.arcs[left.arc];
@@ -348,47 +372,84 @@ bool ChangeList::is_by_frames(const MachineAction& left, const MachineAction& ri
          normal.isApprox(right_arc.normal) && turn * (left.from.tip - left_arc.center).norm() <= options_.tolerance;
 }
 
-/// Whether a frame alone makes the difference: from the first motion to the last one the same frame of each run is in
-/// force, and in it they are the same.
-bool ChangeList::is_by_frames(const ActionRanges& at) const {
-  if (at.a_begin == at.a_end || at.a_end - at.a_begin != at.b_end - at.b_begin) return false;
-  const std::uint32_t old_frame = a(at.a_begin).frame;
-  const std::uint32_t new_frame = b(at.b_begin).frame;
-  for (std::size_t i = at.a_begin, k = at.b_begin; i < at.a_end; ++i, ++k) {
-    if (a(i).frame != old_frame || b(k).frame != new_frame) return false;
-    if (a(i).is_motion() || b(k).is_motion() ? !is_by_frames(a(i), b(k)) : !is_same_effect(runs_, a(i), b(k)))
-      return false;
-  }
-  return true;
+bool ChangeList::is_moved_by_frame(std::size_t i, std::size_t k) const {
+  return !has_same_frame(a(i), b(k)) && is_by_frames(a(i), b(k));
 }
 
-/// In a frame that is turned, each motion is moved otherwise. Together they are one change.
-void ChangeList::name_turned_frames() {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> known;  // The first changes by their frames.
+/// What frames make different in a range, if that is all: each motion starts where both are together or where the
+/// frames lead, and is the same in its frame. None for two causes.
+std::optional<ChangeList::FrameChange> ChangeList::by_frames(const ActionRanges& at) const {
+  if (at.a_begin == at.a_end || at.a_end - at.a_begin != at.b_end - at.b_begin) return std::nullopt;
+  std::optional<FrameChange> found;
+  for (std::size_t i = at.a_begin, k = at.b_begin; i < at.a_end; ++i, ++k) {
+    const MachineAction& left = a(i);
+    const MachineAction& right = b(k);
+    if (!left.is_motion() && !right.is_motion()) {
+      if (!is_same_effect(runs_, left, right)) return std::nullopt;
+      continue;
+    }
+    if (!is_by_frames(left, right)) return std::nullopt;
+    if (has_same_frame(left, right)) {
+      if (!found) return std::nullopt;  // What comes before it moves it.
+      continue;
+    }
+    const geometry::Frame& old_frame = runs_.a.frames[left.frame].frame;
+    const geometry::Frame& new_frame = runs_.b.frames[right.frame].frame;
+    const bool is_turned = !old_frame.axes.isApprox(new_frame.axes);
+    const FrameChange next{cause_of(left, right), new_frame.origin - old_frame.origin, is_turned};
+    if (!found) found = next;
+    if (found->cause != next.cause || found->is_turned != next.is_turned ||
+        (!is_turned && (found->shift - next.shift).norm() > options_.tolerance))
+      return std::nullopt;
+  }
+  return found;
+}
+
+/// What a frame moves is one change: in one that is turned, each motion is moved otherwise, and under one that is
+/// shifted a motion that gives one coordinate is moved along that one alone.
+void ChangeList::name_frames() {
+  struct Known {
+    FrameChange frames;
+    std::size_t change = 0;  ///< The first one.
+  };
+  std::vector<Known> known;
   std::vector<bool> is_joined(changes_.size());
-  for (std::size_t i = 0; i < changes_.size(); ++i) {
+  const auto key = [&](std::size_t i) { return std::pair(places_[i].a_begin, places_[i].b_begin); };
+  std::vector<std::size_t> order(changes_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](auto left, auto right) { return key(left) < key(right); });
+  for (const std::size_t i : order) {
     BehaviorChange& change = changes_[i];
-    if (change.kind != ChangeKind::Moved && change.kind != ChangeKind::Shape) continue;
-    const ActionRanges& at = places_[i];
-    if (!is_by_frames(at)) continue;
-    const ActionFrame& old_frame = runs_.a.frames[a(at.a_begin).frame];
-    const ActionFrame& new_frame = runs_.b.frames[b(at.b_begin).frame];
-    if (old_frame.frame.axes.isApprox(new_frame.frame.axes)) continue;
-    const auto [first, is_new] = known.emplace(std::pair(a(at.a_begin).frame, b(at.b_begin).frame), i);
-    for (std::size_t m = at.a_begin, n = at.b_begin; m < at.a_end; ++m, ++n)
-      if (a(m).is_motion()) change.end_distance = std::max(change.end_distance, (b(n).to.tip - a(m).to.tip).norm());
-    if (is_new) {
+    const ActionRanges at = places_[i];
+    std::optional<FrameChange> frames;
+    if (change.kind == ChangeKind::Frame) frames = FrameChange{{change.old_cause, change.new_cause}, *change.shift};
+    if (change.kind == ChangeKind::Moved || change.kind == ChangeKind::Shape) frames = by_frames(at);
+    if (!frames) continue;
+    const auto first = std::find_if(known.begin(), known.end(), [&](const Known& each) {
+      return each.frames.cause == frames->cause && each.frames.is_turned == frames->is_turned &&
+             (frames->is_turned || (each.frames.shift - frames->shift).norm() <= options_.tolerance);
+    });
+    if (frames->is_turned && at.a_end - at.a_begin == at.b_end - at.b_begin)
+      for (std::size_t m = at.a_begin, n = at.b_begin; m < at.a_end; ++m, ++n)
+        if (a(m).is_motion()) change.end_distance = std::max(change.end_distance, (b(n).to.tip - a(m).to.tip).norm());
+    if (first == known.end()) {
+      known.push_back({*frames, i});
       change.kind = ChangeKind::Frame;
       change.shift.reset();
-      change.old_cause = line_of(runs_.a, a(at.a_begin).frame);
-      change.new_cause = line_of(runs_.b, b(at.b_begin).frame);
+      change.old_cause = frames->cause.old_line;
+      change.new_cause = frames->cause.new_line;
+      if (frames->is_turned) continue;
+      change.shift = frames->shift;
+      change.distance = frames->shift.norm();
+      change.end_distance = 0;
       continue;
     }
     is_joined[i] = true;
-    BehaviorChange& whole = changes_[first->second];
-    ActionRanges& all = places_[first->second];
+    BehaviorChange& whole = changes_[first->change];
+    ActionRanges& all = places_[first->change];
     all = {std::min(all.a_begin, at.a_begin), std::max(all.a_end, at.a_end), std::min(all.b_begin, at.b_begin),
            std::max(all.b_end, at.b_end)};
+    if (!frames->is_turned) continue;
     whole.end_distance = std::max(whole.end_distance, change.end_distance);
     whole.distance =
         whole.distance && change.distance ? std::optional(std::max(*whole.distance, *change.distance)) : std::nullopt;

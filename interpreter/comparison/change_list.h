@@ -58,6 +58,9 @@ class ChangeList {
   /// Feeds of motions that do not follow each other in both runs.
   void compare_feeds_alone(std::size_t i, std::size_t k);
 
+  /// Whether two motions end elsewhere because another frame is in force, and are the same in it.
+  bool is_moved_by_frame(std::size_t i, std::size_t k) const;
+
   /// A change of all from a tool change to the next one, at a place in the runs without it.
   void add_operation(BehaviorChange change, const ActionRanges& place);
 
@@ -86,6 +89,19 @@ class ChangeList {
     double length = std::numeric_limits<double>::infinity();
   };
 
+  /// The lines that have made the frames of both runs different; none for what is in force at the start.
+  struct FrameCause {
+    std::optional<std::size_t> old_line;
+    std::optional<std::size_t> new_line;
+
+    friend bool operator==(const FrameCause&, const FrameCause&) = default;
+  };
+  struct FrameChange {
+    FrameCause cause;
+    geometry::Vec3 shift = geometry::Vec3::Zero();  ///< Of the origin.
+    bool is_turned = false;
+  };
+
   const MachineAction& a(std::size_t i) const { return runs_.a.actions[i]; }
   const MachineAction& b(std::size_t i) const { return runs_.b.actions[i]; }
   BehaviorChange measured_change(ChangeKind kind, const ActionRanges& at) const;
@@ -97,8 +113,10 @@ class ChangeList {
   void compare_feeds(std::size_t i, std::size_t k, const OutsideParts& of_a, const OutsideParts& of_b, double length);
   void close(std::optional<OpenValue>& open, ChangeKind kind);
   void follow_value(std::optional<OpenValue>& open, ChangeKind kind, OpenValue next);
-  void name_turned_frames();
-  bool is_by_frames(const ActionRanges& at) const;
+  void name_frames();
+  FrameCause cause_of(const MachineAction& left, const MachineAction& right) const;
+  bool has_same_frame(const MachineAction& left, const MachineAction& right) const;
+  std::optional<FrameChange> by_frames(const ActionRanges& at) const;
   bool is_by_frames(const MachineAction& left, const MachineAction& right) const;
   void join_moved_blocks();
   void name_exchanged_blocks();

@@ -135,7 +135,9 @@ class ActionRecorder {
     append(ActionKind::Tool);
   }
   void add(const running::FrameEvent& frame, const simulation::TimedEvent&) {
-    run_.frames.push_back({line_, frame.in_force});
+    ActionFrame next{line_, frame.in_force, frame.workpiece_origin, run_.frames.back().zero_line};
+    if (frame.workpiece_origin != run_.frames.back().zero) next.zero_line = line_;
+    run_.frames.push_back(next);
   }
   void add(const running::JumpEvent& jump, const simulation::TimedEvent&) {
     run_.decisions.push_back({line_, jump.taken, run_.actions.size()});

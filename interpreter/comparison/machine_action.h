@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -64,8 +65,10 @@ struct ActionTool {
 };
 
 struct ActionFrame {
-  std::size_t line = 0;   ///< Of the G that brought it into force, from 0.
-  geometry::Frame frame;  ///< In the machine frame.
+  std::size_t line = 0;                          ///< Of the G that brought it into force, from 0.
+  geometry::Frame frame;                         ///< In the machine frame.
+  geometry::Vec3 zero = geometry::Vec3::Zero();  ///< The workpiece's, machine frame, mm; the frame may be a face in it.
+  std::optional<std::size_t> zero_line;          ///< Of the G that has set it; none for that of the start.
 };
 
 /// An IF that a run has met.

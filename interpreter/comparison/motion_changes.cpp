@@ -145,7 +145,7 @@ class MotionNamer {
       return goes_same_way(runs_, a(i), b(k));
     });
     if (only_a == 0 && only_b == 0 && (common || has_same_ways)) {
-      name_moved(group, closing, common);
+      name_moved_by_frames(group, closing);
     } else if (!name_shortened(group, common)) {
       name_shape(group.all(), group.closed(closing), shift);
     }
@@ -213,6 +213,22 @@ class MotionNamer {
 
   void name_shape(const ActionRanges& at, const ActionRanges& path, const Vec3& shift) {
     changes_.add(ChangeKind::Shape, at).distance = shown_distance(path, shift);
+  }
+
+  /// What a frame moves is apart from what is moved in it.
+  void name_moved_by_frames(const StepGroup& group, const MotionStep* closing) {
+    const auto is_by_frame = [&](const MotionStep& step) {
+      const auto [i, k] = group.pair(step);
+      return changes_.is_moved_by_frame(i, k);
+    };
+    const bool are_one = common_shift(group).has_value();
+    for (std::size_t first = 0, last = 0; first < group.steps.size(); first = last) {
+      const bool is_by = is_by_frame(group.steps[first]);
+      while (last < group.steps.size() && (are_one || is_by_frame(group.steps[last]) == is_by)) ++last;
+      StepGroup part{group.block, group.whole, {}};
+      for (std::size_t i = first; i < last; ++i) part.steps.push_back(group.steps[i]);
+      name_moved(part, last == group.steps.size() ? closing : nullptr, common_shift(part));
+    }
   }
 
   void name_moved(const StepGroup& group, const MotionStep* closing, const std::optional<Vec3>& common) {

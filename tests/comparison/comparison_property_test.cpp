@@ -350,8 +350,6 @@ TEST(ComparisonProperty, HolesAtOtherTimesAreAnotherOrderAlone) {
   }
 }
 
-// A path that differs, beside another change.
-
 /// The program as lines.
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -368,6 +366,62 @@ std::string joined(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) text += line + '\n';
   return text;
 }
+
+/// Motions in several zeros and faces one after the other, of which one is elsewhere: the frame alone, with its line.
+TEST(ComparisonProperty, AFrameElsewhereIsFoundAlone) {
+  for (std::uint64_t seed = 1; seed <= tries(); ++seed) {
+    support::Random random(seed);
+    const int count = random.between(2, 5);
+    const int changed = random.between(0, count - 1);
+    const std::array<int, 3> shift{random.between(1, 9), random.one_in(2) ? 0 : random.between(1, 9), 0};
+    std::vector<std::string> lines{"M06 T101001", "S12000 M03"};
+    std::vector<std::string> others = lines;
+    std::size_t cause = 0;
+    std::size_t last = 0;  // The last line in the changed frame.
+    std::array<int, 3> at{0, 0, 0};
+    for (int frame = 0; frame < count; ++frame) {
+      const std::array<int, 3> zero{random.between(-200, 200), random.between(-200, 200), random.between(-20, 20)};
+      const bool is_face = random.one_in(3);
+      const std::string turn = is_face ? fmt::format(" C{}", random.between(1, 80)) : "";
+      const auto line = [&](const std::array<int, 3>& by) {
+        return fmt::format("{} X{} Y{} Z{}{}", is_face ? "G29" : "G92", zero[0] + by[0], zero[1] + by[1], zero[2],
+                           turn);
+      };
+      if (frame == changed) cause = lines.size();
+      lines.push_back(line({}));
+      others.push_back(frame == changed ? line(shift) : lines.back());
+      for (int i = random.between(4, 12); i > 0; --i) {
+        std::string text = random.one_in(3) ? "G00" : "G01";
+        const int axes = i == 1 ? 7 : random.between(1, 7);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          if ((axes >> axis & 1) == 0 && at[axis] != 0) continue;
+          int next = at[axis];
+          while (next == at[axis]) next = random.between(1, 300);
+          at[axis] = next;
+          text += fmt::format(" {}{}", "XYZ"[axis], next);
+        }
+        lines.push_back(text + (text[2] == '1' ? " F1000" : ""));
+        others.push_back(lines.back());
+      }
+      if (frame == changed) last = lines.size() - 1;
+      at = {0, 0, 0};  // The first motion in the next frame gives all coordinates.
+      if (!is_face) continue;
+      lines.push_back("G27");
+      others.push_back("G27");
+    }
+    lines.push_back("M02");
+    others.push_back("M02");
+    const std::vector<BehaviorChange> changes = symmetric_changes(joined(lines), joined(others));
+    ASSERT_EQ(changes.size(), 1U) << shown(changes) << failure(seed, joined(lines), joined(others));
+    ASSERT_EQ(changes[0].kind, ChangeKind::Frame) << shown(changes) << failure(seed, joined(lines), joined(others));
+    ASSERT_EQ(changes[0].old_cause, std::optional(cause)) << failure(seed, joined(lines), joined(others));
+    ASSERT_TRUE(changes[0].shift) << failure(seed, joined(lines), joined(others));
+    ASSERT_LE(changes[0].old_lines->first, cause + 2) << failure(seed, joined(lines), joined(others));
+    ASSERT_GE(changes[0].old_lines->last + 1, last) << failure(seed, joined(lines), joined(others));
+  }
+}
+
+// A path that differs, beside another change.
 
 /// Points of an arc, dense enough for a distance to a fiftieth of its radius; it starts in -X of its center.
 std::vector<geometry::Vec3> dense_arc(const geometry::Vec3& from, const geometry::Vec3& to,

@@ -49,6 +49,12 @@ std::string holes(const std::vector<int>& places) {
   return program + "Z40\nM02\n";
 }
 
+/// Two faces of a part in its zero.
+std::string faces(const std::string& zero) {
+  return "M06 T101001\n" + zero + "\nG00 X1 Y2 Z50\nG29 X10 C30\nG00 X100 Y0\nG01 Z0 F1000\nY100\nG27\n" +
+         "G29 X300 C60\nG00 X100 Y0\nG01 Z0\nX80\nG27\nG92 X0 Y0 Z0\nG00 X0 Y0 Z80\nX9\nM02\n";
+}
+
 /// Operations on parts of a table, each by its tool: its lines are 9, from its tool change to its M05.
 std::string operations(const std::string& tools) {
   std::string program;
@@ -97,6 +103,26 @@ const ComparisonCase kCases[] = {
     {"Zero", "M06 T101001\nG92 X5 Y0 Z0\nG00 X10\nY10\nX20\nY50\nM02\n",
      "M06 T101001\nG92 X7 Y0 Z0\nG00 X10\nY10\nX20\nY50\nM02\n",
      "frame 3-6|3-6: moved by X2: the frame of line 2 is elsewhere\n"},
+    // The frames after it are the same in it, and a motion that gives one coordinate is moved along that one.
+    {"ZeroBeforeAnotherOne", "G92 X5 Y0 Z0\nM06 T101001\nG00 X10\nY10\nX20 Y20\nG92 X90 Y0 Z0\nX30\nY9\nX7\nM02\n",
+     "G92 X7 Y0 Z0\nM06 T101001\nG00 X10\nY10\nX20 Y20\nG92 X90 Y0 Z0\nX30\nY9\nX7\nM02\n",
+     "frame 3-5|3-5: moved by X2: the frame of line 1 is elsewhere\n"},
+    {"ZeroOneCoordinateAfterTheOther", "M06 T101001\nG92 X5 Y5 Z0\nG00 X10\nY10\nX20\nY50\nZ9\nX30 Y60\nM02\n",
+     "M06 T101001\nG92 X7 Y8 Z0\nG00 X10\nY10\nX20\nY50\nZ9\nX30 Y60\nM02\n",
+     "frame 3-8|3-8: moved by X2 Y3: the frame of line 2 is elsewhere\n"},
+    {"ZeroThatOneMotionOutlives",
+     "M06 T101001\nG92 X5 Y5 Z0\nG00 X10 Y10\nX20\nG92 X0 Y0 Z0\nZ30\nX1 Y1\nX9\nY9\nM02\n",
+     "M06 T101001\nG92 X7 Y5 Z0\nG00 X10 Y10\nX20\nG92 X0 Y0 Z0\nZ30\nX1 Y1\nX9\nY9\nM02\n",
+     "frame 3-6|3-6: moved by X2: the frame of line 2 is elsewhere\n"},
+    {"ZeroOfTwoFaces", faces("G92 X5 Y0 Z0"), faces("G92 X6 Y1 Z0"),
+     "frame 3-12|3-12: moved by X1 Y1: the frame of line 2 is elsewhere\n"},
+    {"FaceBeforeAnotherOne", faces("G92 X5 Y0 Z0"), replaced(faces("G92 X5 Y0 Z0"), "G29 X10 C30", "G29 X11 C30"),
+     "frame 5-7|5-7: moved by X1: the frame of line 4 is elsewhere\n"},
+    {"ZeroAndAPlaceInIt", "M06 T101001\nG92 X5 Y0 Z0\nG00 X10\nY10\nX20\nY50\nX60\nY70\nX80\nM02\n",
+     "M06 T101001\nG92 X7 Y0 Z0\nG00 X10\nY10\nX21\nY50\nX60\nY70\nX80\nM02\n",
+     "frame 3-9|3-9: moved by X2: the frame of line 2 is elsewhere\nmoved 5|5: moved by X3\n"},
+    {"CoordinateThatIsNoFrame", "M06 T101001\nG92 X5 Y0 Z0\nG00 X10\nY10\nX20\nY50\nM02\n",
+     "M06 T101001\nG92 X5 Y0 Z0\nG00 X12\nY10\nX20\nY50\nM02\n", "moved 3-4|3-4: moved by X2\n"},
     {"ArcAsLine", kHead + "G03 X50 Y20 I30 J20 F500\nM02\n", kHead + "G01 X50 Y20 F500\nM02\n",
      "shape 4|4: another path, up to 20 mm away\n"},
     {"OtherWayAround", kHead + "G03 X50 Y20 I30 J20 F500\nM02\n", kHead + "G02 X50 Y20 I30 J20 F500\nM02\n",
