@@ -6,6 +6,7 @@
 
 #include "interpreter/comparison/action_path.h"
 #include "interpreter/comparison/anchors.h"
+#include "interpreter/comparison/gap_steps.h"
 
 namespace isocnc::comparison {
 
@@ -277,6 +278,7 @@ class Aligner {
       const std::optional<Again> shifted = in_window(true);
       if (shifted && (!again || same_steps(*shifted) > same_steps(*again))) again = shifted;
     }
+    if (again && is_large && is_new(again->shift)) again = or_anchor(*again);
     if (!again) again = at_anchor();
     if (!again) return false;
     if (again->place.a > place_.a || again->place.b > place_.b) go_on(again->place, AlignedPiece::Kind::Gap);
@@ -284,6 +286,27 @@ class Aligner {
     const bool is_closing = runs_.a.actions[place_.a].is_motion();
     go_on({place_.a + 1, place_.b + 1}, is_closing ? AlignedPiece::Kind::Closing : AlignedPiece::Kind::Same);
     return true;
+  }
+
+  /// A place with a new shift, or else the nearest anchor without one, if that explains far more and leaves out motions
+  /// of one run alone: neighbors of short motions are the same with a shift for a while, wherever one compares them.
+  Again or_anchor(const Again& shifted) {
+    constexpr std::size_t kFarMore = 4;
+    const std::size_t steps = same_steps(shifted);
+    if (steps >= kWindow || place_.a < declined_.a || place_.b < declined_.b) return shifted;
+    const std::optional<Again> anchor = at_anchor();
+    if (!anchor) {
+      declined_ = {runs_.a.actions.size(), runs_.b.actions.size()};
+      return shifted;
+    }
+    const std::size_t a_count = anchor->place.a - place_.a;
+    const std::size_t b_count = anchor->place.b - place_.b;
+    const bool is_section = kFarMore * std::min(a_count, b_count) <= std::max(a_count, b_count);
+    if (is_section && !is_new(anchor->shift) && !is_too_large(a_count, b_count) &&
+        same_steps(*anchor) > kFarMore * steps)
+      return *anchor;
+    declined_ = anchor->place;
+    return shifted;
   }
 
   /// How many steps are the same after a place, up to a maximum: of two places where the runs may meet again, that with
@@ -365,14 +388,15 @@ class Aligner {
     if (!anchors_) anchors_.emplace(runs_);
     std::optional<Again> best;
     std::size_t best_size = 0;
-    for (const bool is_by_place : {true, false}) {
+    for (const Anchors::AnchorRow row :
+         {Anchors::AnchorRow::Numbers, Anchors::AnchorRow::Place, Anchors::AnchorRow::Shape}) {
       PlaceInBoth after = place_;
       for (int i = 0; i < kMaxAnchors; ++i) {
-        const std::optional<PlaceInBoth> anchor = anchors_->next(after, is_by_place);
+        const std::optional<PlaceInBoth> anchor = anchors_->next(after, row);
         if (!anchor) break;
         after = {anchor->a + 1, anchor->b + 1};
         std::optional<Again> again = again_at(*anchor, false);
-        if (!again && !is_by_place) again = again_at(*anchor, true);
+        if (!again && row == Anchors::AnchorRow::Shape) again = again_at(*anchor, true);
         if (!again) continue;
         const Again extended = backward(*again);
         const std::size_t size = std::max(extended.place.a - place_.a, extended.place.b - place_.b);
@@ -407,6 +431,7 @@ class Aligner {
   WorkBudget own_budget_;
   WorkBudget& budget_;
   std::optional<Anchors> anchors_;
+  PlaceInBoth declined_;  ///< Up to there, shifts are not held against anchors again.
 };
 
 }  // namespace

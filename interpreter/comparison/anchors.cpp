@@ -128,13 +128,16 @@ std::vector<PlaceInBoth> longest_row(const std::vector<PlaceInBoth>& pairs) {
 }  // namespace
 
 Anchors::Anchors(const RunPair& runs)
-    : by_place_(
+    : by_numbers_(longest_row(unique_pairs(keyed_by_place(runs.a, 0), keyed_by_place(runs.b, 0)))),
+      by_place_(
           longest_row(unique_pairs(keyed_by_place(runs.a, runs.tolerance), keyed_by_place(runs.b, runs.tolerance)))),
       by_shape_(
           longest_row(unique_pairs(keyed_by_shape(runs.a, runs.tolerance), keyed_by_shape(runs.b, runs.tolerance)))) {}
 
-std::optional<PlaceInBoth> Anchors::next(const PlaceInBoth& place, bool is_by_place) const {
-  const std::vector<PlaceInBoth>& row = is_by_place ? by_place_ : by_shape_;
+std::optional<PlaceInBoth> Anchors::next(const PlaceInBoth& place, AnchorRow of) const {
+  const std::vector<PlaceInBoth>& row = of == AnchorRow::Numbers ? by_numbers_
+                                        : of == AnchorRow::Place ? by_place_
+                                                                 : by_shape_;
   const auto found = std::partition_point(
       row.begin(), row.end(), [&](const PlaceInBoth& pair) { return pair.a < place.a || pair.b < place.b; });
   return found == row.end() ? std::nullopt : std::optional(*found);

@@ -525,7 +525,7 @@ TEST(Anchors, OccurOnceInEachRun) {
   const Anchors anchors(pair);
   std::vector<std::size_t> lines;
   PlaceInBoth place;
-  while (const std::optional<PlaceInBoth> next = anchors.next(place, true)) {
+  while (const std::optional<PlaceInBoth> next = anchors.next(place, Anchors::AnchorRow::Place)) {
     EXPECT_EQ(next->a, next->b);
     lines.push_back(run.actions[next->a].line + 1);
     place = {next->a + 1, next->b + 1};
@@ -591,6 +591,20 @@ std::string fine_path(double step, double height, const std::vector<double>& bum
     program += fmt::format("X{:.3f} Y{:.3f}\n", x, y);
   }
   return program + "G00 Z40\nM02\n";
+}
+
+/// With a tolerance of two lines of the path, neighbors of what is missing go along it for a while.
+TEST(Comparison, NamesAMissingSectionOfAFinePath) {
+  std::string whole = fine_path(0.05, 0, {});
+  const std::size_t begin = whole.find("X50.000");
+  std::string without = whole;
+  without.erase(begin, whole.find("X55.000") - begin);
+  for (const double tolerance : {0.001, 0.01, 0.1}) {
+    const std::vector<BehaviorChange> changes = changes_between(whole, without, {.tolerance = tolerance});
+    ASSERT_EQ(changes.size(), 1U) << tolerance << '\n' << shown(changes);
+    EXPECT_EQ(changes[0].kind, ChangeKind::Removed) << shown(changes);
+    EXPECT_EQ(changes[0].old_motions, 100U) << shown(changes);
+  }
 }
 
 struct BumpCase {
