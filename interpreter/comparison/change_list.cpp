@@ -676,6 +676,10 @@ void ChangeList::rename_moved(std::size_t change) {
 /// all of it.
 void ChangeList::join_paths_beside() {
   constexpr std::size_t kMaxRow = 64;
+  struct PathRow {
+    ActionRanges all;
+    double reported = 0;
+  };
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < changes_.size(); ++i)
     if (is_path(i)) order.push_back(i);
@@ -683,34 +687,33 @@ void ChangeList::join_paths_beside() {
   std::stable_sort(order.begin(), order.end(), [&](auto left, auto right) { return key(left) < key(right); });
   std::vector<bool> is_removed(changes_.size());
   for (std::size_t first = 0; first < order.size();) {
-    std::vector<ActionRanges> rows = {places_[order[first]]};  // Up to each of the next changes.
-    std::vector<double> reported;
-    const auto distance_in = [&](std::size_t i) {
-      const BehaviorChange& change = changes_[order[i]];
-      return std::max(change.distance.value_or(0), change.end_distance);
-    };
-    reported.push_back(distance_in(first));
-    while (first + rows.size() < order.size() && rows.size() < kMaxRow) {
-      const std::size_t next = first + rows.size();
-      const ActionRanges& all = rows.back();
+    std::vector<PathRow> rows;  // Up to each of the next changes.
+    for (std::size_t next = first; next < order.size() && rows.size() < kMaxRow; ++next) {
+      const BehaviorChange& change = changes_[order[next]];
       const ActionRanges& at = places_[order[next]];
+      const double reported = std::max(change.distance.value_or(0), change.end_distance);
+      if (rows.empty()) {
+        rows.push_back({at, reported});
+        continue;
+      }
+      const ActionRanges& all = rows.back().all;
       if (!follows(all, at)) break;
-      reported.push_back(std::max(reported.back(), distance_in(next)));
-      rows.push_back({all.a_begin, std::max(all.a_end, at.a_end), all.b_begin, std::max(all.b_end, at.b_end)});
+      rows.push_back({{all.a_begin, std::max(all.a_end, at.a_end), all.b_begin, std::max(all.b_end, at.b_end)},
+                      std::max(rows.back().reported, reported)});
     }
-    std::size_t count = rows.size();
-    for (; count > 0; --count) {
-      const ActionRanges& all = rows[count - 1];
-      const BehaviorChange& alone = changes_[order[first]];
+    for (; !rows.empty(); rows.pop_back()) {
+      const PathRow& row = rows.back();
+      const bool is_one = rows.size() == 1;
+      const BehaviorChange& change = changes_[order[first]];
       // The distance of one path from the other one says that they are not the same.
-      const bool is_known = count == 1 && !alone.shift && alone.distance.value_or(0) > options_.tolerance;
-      const bool is_same = !is_known && goes_beside(up_to_closing(all), options_.tolerance, true);
-      if (is_same) is_removed[order[first]] = true;
-      if (!is_same && count == 1) rename_moved(order[first]);
-      if (is_same || (count > 1 && join_path(std::span(order).subspan(first, count), all, reported[count - 1]))) break;
+      const bool is_known = is_one && !change.shift && change.distance.value_or(0) > options_.tolerance;
+      is_removed[order[first]] = !is_known && goes_beside(up_to_closing(row.all), options_.tolerance, true);
+      if (is_removed[order[first]]) break;
+      if (is_one) rename_moved(order[first]);
+      if (!is_one && join_path(std::span(order).subspan(first, rows.size()), row.all, row.reported)) break;
     }
-    for (std::size_t i = 1; i < count; ++i) is_removed[order[first + i]] = true;
-    first += std::max<std::size_t>(count, 1);
+    for (std::size_t i = 1; i < rows.size(); ++i) is_removed[order[first + i]] = true;
+    first += std::max<std::size_t>(rows.size(), 1);
   }
   remove(is_removed);
 }
