@@ -46,6 +46,13 @@ test('a line belongs to the shortest change that has it', () => {
   for (const [kind, mark] of [['frame', 'moved'], ['added', 'added'], ['shape', 'changed'], ['end', 'changed']]) assert.equal(markOf({ kind }), mark);
 });
 
+test('where motions are missing, the next line takes another path', () => {
+  const moves = [feed(1, 1, [1, 0])];
+  const both = compared(moves, moves, [[1, 1, 4]], [change('removed', [2, 3], [2, 2]), change('added', [4, 4], [3, 4])]);
+  assert.deepEqual([0, 1, 2, 3].map((line) => both.mark('old', line)), ['same', 'removed', 'removed', 'changed']);
+  assert.deepEqual([0, 1, 2, 3].map((line) => both.mark('new', line)), ['same', 'changed', 'added', 'added']);
+});
+
 test('with another feed, both tools are at the same place at the same moment', () => {
   // 100 mm in 1 s and then 100 mm in 1 s; now in 4 s and in 1 s.
   const both = compared([feed(1, 1, [100, 0]), feed(2, 1, [200, 0])], [feed(1, 4, [100, 0]), feed(2, 1, [200, 0])], [[1, 1, 2]]);
