@@ -9,7 +9,8 @@ State initial_state(const Setup& setup) {
 }
 
 ProgrammedFeed feed_in_force(const State& state) {
-  return state.feed_per_minute.number > 0 ? state.feed_per_minute : state.last_feed;
+  const bool is_per_minute = state.feed_per_minute.number > 0 || !state.feed_per_minute.is_known;
+  return is_per_minute ? state.feed_per_minute : state.last_feed;
 }
 
 bool judged_alike(const State& a, const State& b) {
@@ -23,11 +24,18 @@ bool judged_alike(const State& a, const State& b) {
          a.motion_illegible == b.motion_illegible && a.ended == b.ended;
 }
 
+static void join(ProgrammedFeed& into, const ProgrammedFeed& other) { into.is_known = into.is_known && into == other; }
+
 void join(State& into, const State& other) {
+  join(into.feed_per_minute, other.feed_per_minute);
+  join(into.last_feed, other.last_feed);
+  into.speed_known = into.speed_known && other.speed_known && into.spindle_speed == other.spindle_speed;
   if (into.spindle != other.spindle) into.spindle = Spindle::Unknown;
   into.speed_given |= other.speed_given;
   into.feed_on_rapid |= other.feed_on_rapid;
   into.tool_known = into.tool_known && other.tool_known && into.tool == other.tool;
+  if (into.tool == ToolCode{})
+    into.tool = other.tool;  // With no tool on all paths alone it is known that there is none.
 }
 
 }  // namespace isocnc::execution

@@ -33,6 +33,7 @@ constexpr AxisSet axes_of(dialect::LetterSet letters) {
 struct ProgrammedFeed {
   double number = 0;  ///< 0 before any F.
   double mm_per_unit = 1;
+  bool is_known = true;  ///< Not where paths with different ones join, up to the next F.
 
   friend bool operator==(const ProgrammedFeed&, const ProgrammedFeed&) = default;
 };
@@ -65,6 +66,7 @@ struct State {
   ProgrammedFeed feed_per_minute;      ///< Last F under G94.
   ProgrammedFeed last_feed;            ///< Last F under either mode (D43).
   double spindle_speed = 0;            ///< Revolutions per minute; 0 before any S.
+  bool speed_known = true;             ///< Not where paths with different ones join, up to the next S.
   bool speed_given = false;            ///< An S has been given on some path, or may have lost its letter (D58).
   std::uint8_t spindle_function = 5;   ///< Number of the last spindle M: 3, 4 or 5.
   Spindle spindle = Spindle::Stopped;  ///< Unknown where the last spindle M no longer decides.
@@ -134,8 +136,8 @@ ProgrammedFeed feed_in_force(const State& state);
 /// feed, spindle and tool, on which no check of the dialect depends, and in `feed_on_rapid`, which selects a message.
 bool judged_alike(const State& a, const State& b);
 
-/// Lets `into` stand for both of two states that are judged alike. Where their spindles or tools differ, they are
-/// unknown after it; feed and spindle speed remain those of `into`.
+/// Lets `into` stand for both of two states that are judged alike. Where their spindles, tools, spindle speeds or feeds
+/// differ, these are unknown after it; the numbers of feed and speed remain those of `into`.
 void join(State& into, const State& other);
 
 }  // namespace isocnc::execution

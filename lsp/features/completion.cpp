@@ -319,8 +319,10 @@ class Completer {
     for (const char letter : dialect::kArgumentOrder)
       if (dialect::contains(letters, letter)) offer_letter(letter, value_there(letter));
     if (owner && owner->kind == InstructionKind::Function) offer_letter('P', "");
-    offer_letter('F', state_.last_feed.number > 0 ? dialect::format_value(state_.last_feed.number) : "");
-    offer_letter('S', state_.spindle_speed > 0 ? dialect::format_value(state_.spindle_speed) : "");
+    const bool knows_feed = state_.last_feed.number > 0 && state_.last_feed.is_known;
+    offer_letter('F', knows_feed ? dialect::format_value(state_.last_feed.number) : "");
+    const bool knows_speed = state_.spindle_speed > 0 && state_.speed_known;
+    offer_letter('S', knows_speed ? dialect::format_value(state_.spindle_speed) : "");
   }
 
   /// The position of the tool tip on this axis, in the units in force; empty if unknown.

@@ -193,7 +193,11 @@ class HoverWriter {
       add(text(kMotionLength, length, unit()));
     }
     if (all([](const LineRun& run) { return run.move->feed > 0; })) {
-      add(text(kTime, agreement.of([&](const LineRun& run) { return seconds_at_feed(in_machine(run)); })));
+      const bool knows_feed = all(
+          [](const LineRun& run) { return run.move->inverse_time || execution::feed_in_force(run.after).is_known; });
+      if (!knows_feed) agreement.is_partial = true;
+      add(text(kTime,
+               knows_feed ? agreement.of([&](const LineRun& run) { return seconds_at_feed(in_machine(run)); }) : "?"));
     } else if (all([](const LineRun& run) { return run.move->kind == execution::MoveKind::Rapid; })) {
       add(text(kRapid, agreement.of([&](const LineRun& run) { return seconds_in_rapid(in_machine(run)); })));
     }

@@ -18,7 +18,8 @@ struct LineRun {
   double dwell = 0;  ///< Seconds.
 };
 
-/// Executes a line. Returns nothing if no path leads to the line, or if paths reach it in different states.
+/// Executes a line. Returns nothing if no path leads to the line, or if paths reach it in states that are judged
+/// differently.
 std::optional<LineRun> run_line(const documents::Snapshot& snapshot, std::size_t line);
 
 /// Executes a line from each state in which paths reach it. Returns an empty list if not all of these states are known.

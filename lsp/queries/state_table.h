@@ -8,12 +8,9 @@
 
 namespace isocnc::queries {
 
-/// The states before and after a line as a table for people. A row in which they differ starts with `*`; what is not
-/// known, or differs from path to path, is `?`. Lengths in mm, angles in degrees, feeds in mm/min.
-std::string state_table(const LineRun& run, dialect::Language language);
-
-/// The same from the states of several paths, of which there is one at least. States that paths join in say nothing
-/// certain of tool, spindle and feed (execution::join).
+/// The states before and after a line as a table for people, from all states in which paths reach it, of which there is
+/// one at least. A row in which they differ starts with `*`; what is not known, or differs from path to path, is `?`.
+/// Lengths in mm, angles in degrees, feeds in mm/min.
 std::string state_table(const std::vector<LineRun>& runs, dialect::Language language);
 
 }  // namespace isocnc::queries

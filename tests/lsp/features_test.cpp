@@ -192,6 +192,53 @@ TEST(State, AtALabelIsThatOfAllThatJumpsThere) {
   EXPECT_EQ(x_at_label("M02"), 10);           // Only the jump leads to the label.
 }
 
+/// As in the text of the state: null, and named, where paths differ.
+TEST(State, HasWhatAllPathsAgreeOn) {
+  Session session;
+  session.start();
+  const auto after_branch = [&](const std::string& branch) {
+    session.open(kUntitled,
+                 "M06 T101001\nS1000 M03\nG01 X10 F1000\nIF VGPL = 1 GOTO N5\n" + branch + "\nN5 M100\nM02\n");
+    Json state = session.request("isocnc/state", {{"textDocument", {{"uri", kUntitled}}}, {"line", 5}})["before"];
+    session.close(kUntitled);
+    return state;
+  };
+  const Json same = after_branch("S1000");
+  EXPECT_EQ(same["unknown"], Json::array());
+  EXPECT_EQ(same["spindle"], (Json{{"function", 3}, {"speed", 1000}}));
+  EXPECT_EQ(same["feed"], 1000);
+  const Json slower = after_branch("S500");
+  EXPECT_EQ(slower["unknown"], Json::array({"spindle.speed"}));
+  EXPECT_EQ(slower["spindle"], (Json{{"function", 3}, {"speed", nullptr}}));
+  const Json fed = after_branch("G01 X10 F500");
+  EXPECT_EQ(fed["unknown"], Json::array({"feed"}));
+  EXPECT_EQ(fed["feed"], nullptr);
+  const Json elsewhere = after_branch("G01 X20");
+  EXPECT_EQ(elsewhere["unknown"], Json::array({"position.x", "machinePosition.x"}));
+  EXPECT_EQ(elsewhere["machinePosition"], (Json{{"x", nullptr}, {"y", 0}, {"z", 0}}));
+  EXPECT_EQ(elsewhere["feed"], 1000);
+  const Json other_tool = after_branch("M06 T101002 M03");
+  EXPECT_EQ(other_tool["unknown"], Json::array({"tool"}));
+  EXPECT_EQ(other_tool["tool"], nullptr);
+}
+
+TEST(Hover, DoesNotTakeTheFeedOfOnePathForThatOfAll) {
+  const auto time_of_move = [](const std::string& feed, const std::string& in_move) {
+    Session session;
+    session.start(Json::object(), {{"locale", "en"}});
+    session.open(kUntitled, "M06 T101001\nG01 X10 F1000\nIF VGPL = 1 GOTO N5\nG01 X10 F" + feed + "\nN5 G01 X110" +
+                                in_move + "\nM02\n");
+    return session
+        .request("textDocument/hover", {{"textDocument", {{"uri", kUntitled}}},
+                                        {"position", {{"line", 4}, {"character", 4}}}})["contents"]["value"]
+        .get<std::string>();
+  };
+  EXPECT_THAT(time_of_move("1000", ""), HasSubstr("at the programmed feed 6 s"));
+  EXPECT_THAT(time_of_move("500", ""), HasSubstr("at the programmed feed ? s"));
+  EXPECT_THAT(time_of_move("500", ""), HasSubstr("depends on the jumps before"));
+  EXPECT_THAT(time_of_move("500", " F600"), HasSubstr("at the programmed feed 10 s"));
+}
+
 TEST(SyntaxTree, ShowsHowLinesAreRead) {
   Session session;
   session.start();

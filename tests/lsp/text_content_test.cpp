@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "session.h"
 
@@ -163,8 +166,47 @@ TEST_F(TextContent, OfAStateHasWhatIsTheSameOnAllPaths) {
   const std::string text = content("isocnc://state/?line=6&program=file%3A///nowhere/part.iso");
   EXPECT_THAT(text, HasSubstr("\n* position                 X1 Y0 Z0 B0 C0  X2 Y0 Z0 B0 C0\n"));
   EXPECT_THAT(text, HasSubstr("\n  tool                     ?               ?\n"));
+  EXPECT_THAT(text, HasSubstr("\n  spindle                  ?               ?\n"));
   EXPECT_EQ(content("isocnc://state/?line=8&program=file%3A///nowhere/part.iso"),
             "part.iso:9  X3\n\nNo path leads here.\n");
+}
+
+/// A branch of a program, and rows of the table at the label after it.
+struct BranchedState {
+  std::string branch;
+  std::vector<std::string> rows;
+};
+
+TEST_F(TextContent, OfAStateDoesNotTakeOnePathForAll) {
+  const BranchedState cases[] = {
+      {"F2000", {"feed                     ? ", "spindle                  M03 S1000"}},
+      {"G01 X1 F2000",
+       {"position                 X1 Y0 Z0 B0 C0", "feed                     ? ",
+        "spindle                  M03 S1000"}},
+      {"G01 X1 F1000", {"feed                     F1000"}},
+      {"S2000",
+       {"spindle                  M03 S? ", "feed                     F1000", "tool                     T101001"}},
+      {"S1000", {"spindle                  M03 S1000"}},
+      {"M04", {"spindle                  ? S1000", "feed                     F1000"}},
+      {"G00 X5",
+       {"position                 X? Y0 Z0 B0 C0", "machine position         X? Y0 Z0",
+        "feed                     F1000", "spindle                  M03 S1000", "tool                     T101001"}},
+      {"G00 X5 Y1 Z1 B2 C3", {"position                 ? ", "motion                   ? "}},
+      {"G91", {"absolute or incremental  ? ", "position                 X1 Y0 Z0 B0 C0"}},
+      {"G92 X5", {"workpiece zero           X? Y0 Z0", "machine position         X1 Y0 Z0"}},
+      {"M06 T101002\nM03", {"tool                     ? ", "spindle                  M03 S1000"}},
+      {"M06 T000000\nM03", {"tool                     ? ", "spindle                  M03 S1000"}},
+  };
+  session.start(Json::object(), {{"locale", "en"}});
+  session.open(kUri, "M02\n");
+  for (const BranchedState& each : cases) {
+    session.close(kUri);
+    session.open(kUri,
+                 "M06 T101001\nS1000 M03\nG01 X1 F1000\nIF VGPL = 1 GOTO N10\n" + each.branch + "\nN10 M100\nM02\n");
+    const std::size_t label = 5 + static_cast<std::size_t>(std::count(each.branch.begin(), each.branch.end(), '\n'));
+    const std::string text = content(fmt::format("isocnc://state/?line={}&program=file%3A///nowhere/part.iso", label));
+    for (const std::string& row : each.rows) EXPECT_THAT(text, HasSubstr("\n  " + row)) << each.branch;
+  }
 }
 
 TEST_F(TextContent, ThatCannotBeWrittenIsNotShown) {
