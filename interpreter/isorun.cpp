@@ -763,10 +763,11 @@ ExitStatus run_main(int argc, char** argv) {
               "scritto."}},
             {"1",
              {"An error stopped the program, as it would stop the control; or a finding of the machine is an error, "
-              "such as a joint outside its travel; or there is no safe restart, or no free way for the outline.",
+              "such as a joint outside its travel; or there is no safe restart, or no free way for the outline; or an "
+              "entry of a library of tools is mistaken, and the others are taken.",
               "Un errore ha fermato il programma, come fermerebbe il controllo; oppure una segnalazione della macchina "
               "è un errore, come un asse macchina fuori corsa; oppure non c'è una ripresa sicura, o per il contorno "
-              "non c'è via libera."}},
+              "non c'è via libera; oppure una voce di una libreria di utensili è sbagliata, e le altre sono prese."}},
             {"2",
              {"A mistake in the command or in an isocnc.json, or something could not be read or written.",
               "Un errore nel comando o in un isocnc.json, oppure qualcosa che non si è potuto leggere o scrivere."}}},

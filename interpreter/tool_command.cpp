@@ -156,20 +156,21 @@ ExitStatus import_tools(const ToolCommandOptions& options, const FoundMachine& f
     std::cout << dialect::format(kIgnoredColumns, language, fmt::format("{}", fmt::join(library.ignored, ", ")))
               << '\n';
   if (import.changes.empty() && import.unchanged == 0) {
-    const bool lacks_places = std::any_of(library.tools.begin(), library.tools.end(),
-                                          [](const tool_library::LibraryTool& tool) { return !tool.has_place; });
-    if (!lacks_places || !options.map_file.empty()) {
+    const auto lacks_place =
+        std::find_if(library.tools.begin(), library.tools.end(),
+                     [](const tool_library::LibraryTool& tool) { return !tool.has_place && tool.mistakes.empty(); });
+    if (lacks_place == library.tools.end() || !options.map_file.empty()) {
       refuse_tools(kTakesNone.in(language));
       return ExitStatus::Failure;
     }
-    const std::string number = library.tools.empty()                  ? "1"
-                               : library.tools.front().number.empty() ? library.tools.front().tool.name
-                                                                      : library.tools.front().number;
+    const std::string number = lacks_place->number.empty() ? lacks_place->tool.name : lacks_place->number;
     refuse_tools(dialect::format(kNothingTaken, language,
                                  fmt::format(R"({{"tools": {{"{}": "T101001"}}}})", text::printable(number))));
     return ExitStatus::Failure;
   }
-  if (import.changes.empty() && import.holders.empty()) return ExitStatus::Success;
+  // What is mistaken in the library does not keep the others out.
+  const ExitStatus done = has_mistaken_entry(import) ? ExitStatus::Findings : ExitStatus::Success;
+  if (import.changes.empty() && import.holders.empty()) return done;
   const std::optional<std::string> changed = tool_library::with_import(*text, target.folder(), import);
   if (!changed) {
     refuse_tools(dialect::format(kDefect, language, target.name()));
@@ -177,11 +178,11 @@ ExitStatus import_tools(const ToolCommandOptions& options, const FoundMachine& f
   }
   if (!options.is_written) {
     std::cout << dialect::format(kNothingWritten, language, target.name()) << '\n';
-    return ExitStatus::Success;
+    return done;
   }
   if (!target.write(*changed, language)) return ExitStatus::Failure;
   std::cout << dialect::format(kWritten, language, target.name()) << '\n';
-  return ExitStatus::Success;
+  return done;
 }
 
 ExitStatus export_tools(const ToolCommandOptions& options, const FoundMachine& found) {

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -11,12 +12,15 @@ using configuration::JsonMember;
 using configuration::JsonValue;
 
 /// The `length` of a cutter is that of what cuts; nothing is said of how far it stands from the spindle.
-static std::optional<LibraryTool> read_tool(const JsonMember& member, const std::string& path, LibraryFile& file) {
+static LibraryTool read_tool(const JsonMember& member, const std::string& path, LibraryFile& file) {
   const JsonValue& value = member.value;
+  LibraryTool read;
+  read.number = member.key;
   if (value.kind != JsonValue::Kind::Object) {
     file.fail(value.at, path, configuration::mistakes::kNeedsObject);
-    return std::nullopt;
+    return read;
   }
+  read.tool.name = text_of(value, "description");
   double millimeters = 1;
   if (const JsonValue* const units = member_of(value, "units")) {
     if (units->string == "imperial" || units->string == "IMPERIAL") {
@@ -24,12 +28,9 @@ static std::optional<LibraryTool> read_tool(const JsonMember& member, const std:
     } else if (units->string != "metric" && units->string != "METRIC") {
       file.fail(units->at, path + ".units", problems::kUnknownUnit,
                 {configuration::shortened(units->string), std::string("metric, imperial")});
-      return std::nullopt;
+      return read;
     }
   }
-  LibraryTool read;
-  read.number = member.key;
-  read.tool.name = text_of(value, "description");
   const JsonTool geometry(value, path, millimeters, file);
   const std::optional<double> length = geometry.length("length");
   const std::optional<double> diameter = geometry.length("diameter");
@@ -57,7 +58,7 @@ std::vector<LibraryTool> read_camotics(const JsonValue& table, LibraryFile& file
   std::vector<LibraryTool> read;
   for (const JsonMember& member : (tools == nullptr ? table : *tools).members) {
     const std::string path = (tools == nullptr ? "" : "tools.") + configuration::shortened(member.key);
-    if (auto tool = read_tool(member, path, file)) read.push_back(*std::move(tool));
+    read.push_back(*file.entry([&] { return std::optional(read_tool(member, path, file)); }));
   }
   return read;
 }

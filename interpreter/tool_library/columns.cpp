@@ -234,7 +234,8 @@ class ToolRow {
             .tool = tool(),
             .has_place = code.head > 0 && code.holder > 0 && code.tool > 0,
             .holder = {},
-            .kind_without_shape = {}};
+            .kind_without_shape = {},
+            .mistakes = {}};
   }
 
  private:
@@ -426,19 +427,20 @@ std::vector<LibraryTool> read_columns(LibraryFile& file, double millimeters, std
   const std::vector<HeadedColumn> columns = read_header(*header, file, ignored);
   if (!file.mistakes().empty()) return {};
   std::vector<LibraryTool> tools;
-  while (const std::optional<CsvRow> row = rows.next()) {
+  const auto read_row = [&](const CsvRow& row) -> std::optional<LibraryTool> {
     ToolRow tool(file, millimeters);
-    const std::size_t count = std::min(row->size(), columns.size());
-    for (std::size_t i = count; i < row->size(); ++i)
-      if (!(*row)[i].text.empty()) {
-        file.fail((*row)[i].at, {}, kTooManyCells);
+    const std::size_t count = std::min(row.size(), columns.size());
+    for (std::size_t i = count; i < row.size(); ++i)
+      if (!row[i].text.empty()) {
+        file.fail(row[i].at, {}, kTooManyCells);
         break;
       }
     for (std::size_t i = 0; i < count; ++i)
-      if (columns[i].name == kUnit) tool.read_unit((*row)[i]);
-    for (std::size_t i = 0; i < count; ++i) tool.read(columns[i].name, columns[i].millimeters, (*row)[i]);
-    tools.push_back(tool.take());
-  }
+      if (columns[i].name == kUnit) tool.read_unit(row[i]);
+    for (std::size_t i = 0; i < count; ++i) tool.read(columns[i].name, columns[i].millimeters, row[i]);
+    return tool.take();
+  };
+  while (const std::optional<CsvRow> row = rows.next()) tools.push_back(*file.entry([&] { return read_row(*row); }));
   return tools;
 }
 

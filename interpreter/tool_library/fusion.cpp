@@ -82,6 +82,7 @@ void set_shape(std::string_view type, const JsonTool& geometry, LibraryTool& rea
   if (tool.shape.empty() && !tool.profile) read.kind_without_shape = type;
 }
 
+/// None for an entry that is no tool.
 std::optional<LibraryTool> read_tool(const JsonValue& value, const std::string& path, double otherwise,
                                      LibraryFile& file) {
   if (value.kind != Kind::Object) {
@@ -90,8 +91,6 @@ std::optional<LibraryTool> read_tool(const JsonValue& value, const std::string& 
   }
   const std::string type = text_of(value, "type");
   if (type == "holder") return std::nullopt;
-  const std::optional<double> unit = unit_of(value, path, otherwise, file);
-  if (!unit) return std::nullopt;
   LibraryTool read;
   Tool& tool = read.tool;
   tool.name = text_of(value, "description");
@@ -102,6 +101,8 @@ std::optional<LibraryTool> read_tool(const JsonValue& value, const std::string& 
         number->number >= 0 && number->number < 1e9)
       read.number = fmt::format("{:.0f}", number->number);
   }
+  const std::optional<double> unit = unit_of(value, path, otherwise, file);
+  if (!unit) return read;
   static const JsonValue kNoGeometry;
   const JsonValue* const found = member_of(value, "geometry");
   const JsonTool geometry(found == nullptr ? kNoGeometry : *found, path + ".geometry", *unit, file);
@@ -132,7 +133,8 @@ std::vector<LibraryTool> read_fusion(const JsonValue& library, double millimeter
   const JsonValue& data = *member_of(library, "data");
   if (data.kind != Kind::List) file.fail(data.at, "data", configuration::mistakes::kNeedsList);
   for (std::size_t i = 0; i < data.elements.size(); ++i)
-    if (auto tool = read_tool(data.elements[i], fmt::format("data[{}]", i), millimeters, file))
+    if (auto tool =
+            file.entry([&] { return read_tool(data.elements[i], fmt::format("data[{}]", i), millimeters, file); }))
       tools.push_back(*std::move(tool));
   return tools;
 }

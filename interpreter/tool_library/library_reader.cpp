@@ -34,12 +34,16 @@ const JsonValue* member_of(const JsonValue& object, std::string_view key) {
   return nullptr;
 }
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
+}
+
 std::string text_of(const JsonValue& object, std::string_view key) {
   const JsonValue* const value = member_of(object, key);
   if (value == nullptr || value->kind != JsonValue::Kind::String) return {};
-  const std::size_t begin = value->string.find_first_not_of(" \t\r\n");
-  if (begin == std::string::npos) return {};
-  return value->string.substr(begin, value->string.find_last_not_of(" \t\r\n") + 1 - begin);
+  return std::string(trimmed(value->string));
 }
 
 /// Whether a library leaves a member open.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "interpreter/configuration/json_value.h"
@@ -31,6 +32,19 @@ class LibraryFile {
   void fail(std::size_t at, std::string key, const dialect::Text& text, std::vector<configuration::Named> names = {});
   /// The first hundred, one a line.
   const std::vector<std::string>& mistakes() const { return mistakes_; }
+  /// One that has its file and its place already.
+  void add_mistake(std::string mistake) { mistakes_.push_back(std::move(mistake)); }
+  /// Reads the entry of one tool, by a function that returns it if there is one. What is wrong with the entry belongs
+  /// to the tool alone, which is then there in any case.
+  template <class Read>
+  std::optional<LibraryTool> entry(Read read) {
+    std::vector<std::string> of_file = std::exchange(mistakes_, {});
+    std::optional<LibraryTool> tool = read();
+    if (!tool && !mistakes_.empty()) tool.emplace();
+    if (tool) tool->mistakes = std::move(mistakes_);
+    mistakes_ = std::move(of_file);
+    return tool;
+  }
 
  private:
   std::string name_;
@@ -55,7 +69,9 @@ double tidy(double length);
 
 /// The member of an object; null if there is none, or no object.
 const configuration::JsonValue* member_of(const configuration::JsonValue& object, std::string_view key);
-/// The text of a member, without blanks around it; empty if there is none.
+/// A text without blanks around it.
+std::string_view trimmed(std::string_view text);
+/// The text of a member, likewise; empty if there is none.
 std::string text_of(const configuration::JsonValue& object, std::string_view key);
 
 /// Lengths and angles of an object in JSON, in the unit of its library.

@@ -20,6 +20,7 @@ static std::optional<LibraryTool> read_line(std::string_view line, std::size_t a
   const std::size_t comment = std::min(line.find(';'), line.size());
   std::string_view entries = line.substr(0, comment);
   LibraryTool read;
+  if (comment < line.size()) read.tool.name = trimmed(line.substr(comment + 1));
   bool has_entries = false;
   for (std::size_t begin = entries.find_first_not_of(" \t"); begin != std::string_view::npos;
        begin = entries.find_first_not_of(" \t", begin)) {
@@ -37,28 +38,21 @@ static std::optional<LibraryTool> read_line(std::string_view line, std::size_t a
     if (!is_known || parsed.ec != std::errc{} || parsed.ptr != digits.data() + digits.size()) {
       file.fail(at + static_cast<std::size_t>(entry.data() - line.data()), {}, kNoEntry,
                 {configuration::shortened(entry)});
-      return std::nullopt;
+      return read;
     }
     const double length = tidy(number * millimeters);
     if (letter == 'T' && number >= 0 && number < 1e9) read.number = fmt::format("{:.0f}", number);
     if ((letter == 'D' || letter == 'Z') && std::abs(length) > kLongest) {
       file.fail(at + static_cast<std::size_t>(entry.data() - line.data()), {}, problems::kNeedsLength,
                 {configuration::shortened(digits)});
-      return std::nullopt;
+      return read;
     }
     if (letter == 'D' && length > 0) read.tool.radius = tidy(length / 2);
     // An offset below 0 counts from another tool, or from the table.
     if (letter == 'Z' && length > 0) read.tool.length = length;
   }
   if (!has_entries) return std::nullopt;
-  if (read.number.empty()) {
-    file.fail(at, {}, kLineWithoutTool);
-    return std::nullopt;
-  }
-  std::string_view name = line.substr(std::min(comment + 1, line.size()));
-  name.remove_prefix(std::min(name.find_first_not_of(" \t"), name.size()));
-  name = name.substr(0, name.find_last_not_of(" \t\r") + 1);
-  read.tool.name = name;
+  if (read.number.empty()) file.fail(at, {}, kLineWithoutTool);
   return read;
 }
 
@@ -69,7 +63,8 @@ std::vector<LibraryTool> read_linuxcnc(LibraryFile& file, double millimeters) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     std::string_view line = text.substr(at, end - at);
     if (line.ends_with('\r')) line.remove_suffix(1);
-    if (auto tool = read_line(line, at, millimeters, file)) tools.push_back(*std::move(tool));
+    if (auto tool = file.entry([&] { return read_line(line, at, millimeters, file); }))
+      tools.push_back(*std::move(tool));
     at = end + 1;
   }
   return tools;

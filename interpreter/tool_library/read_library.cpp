@@ -137,6 +137,31 @@ std::optional<std::filesystem::path> find_bit(const std::filesystem::path& libra
   return std::nullopt;
 }
 
+/// The tool of an entry in a library of FreeCAD, which has a file of its own.
+LibraryTool read_freecad_entry(const std::filesystem::path& library, const JsonValue& entry, const std::string& key,
+                               LibraryFile& file) {
+  LibraryTool tool;
+  const std::string name = text_of(entry, "path");
+  const std::optional<std::filesystem::path> path = find_bit(library, name);
+  if (ending_of(name) != ".fctb") {
+    file.fail(entry.at, key + ".path", kNoBit, {configuration::shortened(name)});
+  } else if (!path) {
+    file.fail(entry.at, key + ".path", kMissingBit, {configuration::shortened(name)});
+  } else {
+    std::vector<std::string> mistakes;
+    if (std::optional<std::string> bytes = read_file(*path, file.language(), mistakes)) {
+      LibraryFile bit_file(text::printable(path->generic_string()), *std::move(bytes), file.language());
+      if (const std::optional<JsonValue> bit = object_in(bit_file))
+        if (auto read = read_freecad_bit(*bit, bit_file)) tool = *std::move(read);
+      mistakes = bit_file.mistakes();
+    }
+    for (const std::string& mistake : mistakes) file.add_mistake(mistake);
+  }
+  if (const JsonValue* const number = member_of(entry, "nr"); number != nullptr && number->kind == Kind::Number)
+    tool.number = fmt::format("{:.0f}", number->number);
+  return tool;
+}
+
 /// A library of FreeCAD: a list of numbers and files of tools.
 void read_freecad_library(const std::filesystem::path& path, LibraryFile& file, Library& library) {
   const std::optional<JsonValue> value = object_in(file);
@@ -148,27 +173,8 @@ void read_freecad_library(const std::filesystem::path& path, LibraryFile& file, 
   for (std::size_t i = 0; i < tools->elements.size(); ++i) {
     const JsonValue& entry = tools->elements[i];
     const std::string key = fmt::format("tools[{}]", i);
-    const std::string name = text_of(entry, "path");
-    if (ending_of(name) != ".fctb") {
-      file.fail(entry.at, key + ".path", kNoBit, {configuration::shortened(name)});
-      continue;
-    }
-    const std::optional<std::filesystem::path> bit_path = find_bit(path, name);
-    if (!bit_path) {
-      file.fail(entry.at, key + ".path", kMissingBit, {configuration::shortened(name)});
-      continue;
-    }
-    std::optional<std::string> bytes = read_file(*bit_path, file.language(), library.mistakes);
-    if (!bytes) continue;
-    LibraryFile bit_file(text::printable(bit_path->generic_string()), *std::move(bytes), file.language());
-    if (const std::optional<JsonValue> bit = object_in(bit_file)) {
-      if (auto tool = read_freecad_bit(*bit, bit_file)) {
-        if (const JsonValue* const number = member_of(entry, "nr"); number != nullptr && number->kind == Kind::Number)
-          tool->number = fmt::format("{:.0f}", number->number);
-        library.tools.push_back(*std::move(tool));
-      }
-    }
-    library.mistakes.insert(library.mistakes.end(), bit_file.mistakes().begin(), bit_file.mistakes().end());
+    LibraryTool tool = *file.entry([&] { return std::optional(read_freecad_entry(path, entry, key, file)); });
+    library.tools.push_back(std::move(tool));
   }
 }
 

@@ -43,10 +43,12 @@ constexpr Text kNeedsLength{"its shape is left out, since its length from the sp
 constexpr Text kKindWithoutShape{"no shape is known for what the library calls {0}",
                                  "non c'è una forma per ciò che la libreria chiama {0}"};
 
+constexpr std::string_view kNameless = "?";
+
 /// What a tool of the library is called in messages.
 std::string label_of(const LibraryTool& tool) {
   if (tool.tool.name.empty() && tool.number.empty() && tool.has_place) return tool_name(tool.tool.code);
-  if (tool.tool.name.empty()) return tool.number.empty() ? "?" : tool.number;
+  if (tool.tool.name.empty()) return tool.number.empty() ? std::string(kNameless) : tool.number;
   return text::printable(tool.tool.name);
 }
 
@@ -198,11 +200,15 @@ class Importer {
 
   void take(const LibraryTool& read) {
     const auto place = places_.find(&read);
-    if (place == places_.end()) {
-      import_.refused.push_back({read.number, label_of(read), kUnmapped, {}});
+    if (place != places_.end()) taken_.push_back(place->second);
+    if (!read.mistakes.empty()) {
+      import_.refused.push_back({read.number, label_of(read), {}, {}, read.mistakes});
       return;
     }
-    taken_.push_back(place->second);
+    if (place == places_.end()) {
+      import_.refused.push_back({read.number, label_of(read), kUnmapped, {}, {}});
+      return;
+    }
     const auto index = index_.find(place->second);
     const Tool* const old = index == index_.end() ? nullptr : &(*machine_.tools)[index->second];
     Tool tool = read.tool;
@@ -220,7 +226,7 @@ class Importer {
                                            .names = objection->names,
                                            .meant = {}};
       import_.refused.push_back(
-          {read.number, label_of(read), Text{"{0}", "{0}"}, {configuration::Named(mistake.message(language_))}});
+          {read.number, label_of(read), Text{"{0}", "{0}"}, {configuration::Named(mistake.message(language_))}, {}});
       machine_.holders = before_.holders;
       for (const auto& each : import_.holders) set_holder(each.holder);
       return;
@@ -336,6 +342,11 @@ std::variant<ToolImport, std::string> import_tools(const MachineConfiguration& m
   return Importer(machine, library, options).run();
 }
 
+bool has_mistaken_entry(const ToolImport& import) {
+  return std::any_of(import.refused.begin(), import.refused.end(),
+                     [](const ToolImport::Refused& refused) { return !refused.mistakes.empty(); });
+}
+
 std::vector<std::string> tool_key_names() {
   std::vector<std::string> names;
   for (const configuration::Key* key : tool_keys())
@@ -386,13 +397,16 @@ std::string shown_import(const ToolImport& import, Language language) {
     line('=', tool_name(tool.code) + quoted(tool.name) + ": " + std::string(kStays.in(language)));
   for (const ToolImport::Refused& refused : import.refused) {
     const std::string why =
-        refused.names.empty()
+        !refused.mistakes.empty() ? refused.mistakes.front()
+        : refused.names.empty()
             ? std::string(refused.why.in(language))
             : dialect::format(refused.why, language,
                               language == Language::Italian ? refused.names[0].it : refused.names[0].en);
-    line('!', (refused.number.empty() || refused.number == refused.name ? refused.name
-                                                                        : refused.number + " " + refused.name) +
-                  ": " + dialect::format(kNotTaken, language, why));
+    std::string who =
+        refused.number.empty() || refused.number == refused.name ? refused.name : refused.number + " " + refused.name;
+    who = who == kNameless && !refused.mistakes.empty() ? "" : who + ": ";  // The place in the file says which one.
+    line('!', who + dialect::format(kNotTaken, language, why));
+    for (std::size_t i = 1; i < refused.mistakes.size(); ++i) line(' ', "  " + refused.mistakes[i]);
   }
   for (const std::string& key : import.unused)
     line('!', dialect::format(kUnusedKey, language, configuration::shortened(key)));

@@ -40,8 +40,9 @@ struct ToolImport {
   struct Refused {
     std::string number;
     std::string name;
-    dialect::Text why;
+    dialect::Text why;                        ///< Empty with mistakes.
     std::vector<configuration::Named> names;  ///< For the placeholders of `why`.
+    std::vector<std::string> mistakes;        ///< What is wrong with its entry in the library, with file and place.
   };
 
   std::vector<ImportedTool> changes;  ///< In the order of T.
@@ -68,6 +69,9 @@ std::variant<ToolImport, std::string> import_tools(const configuration::MachineC
 
 /// The keys of a tool besides its place, in the order of their table.
 std::vector<std::string> tool_key_names();
+
+/// Whether an entry of the library is mistaken, and so not taken.
+bool has_mistaken_entry(const ToolImport& import);
 
 /// The difference, for people.
 std::string shown_import(const ToolImport& import, dialect::Language language);

@@ -80,12 +80,12 @@ TEST_F(IsorunTools, ExportsWhatItImports) {
 TEST_F(IsorunTools, ChangesNothingAfterAMistake) {
   const std::string configuration = folder_.write("isocnc.json", kCommentedShop);
   folder_.write("tools.csv", kToolTable);
-  folder_.write("broken.csv", "T;length\nT101001;long\n");
+  folder_.write("broken.csv", "T;length\nT101001;\"100\n");
   folder_.write("twice.json", R"({"tools": {"a": "T101001", "b": "101001"}})");
   folder_.write("nowhere.tbl", "T1 D6\n");
   const std::pair<std::vector<std::string>, const char*> mistaken[] = {
       {{"--import-tools", "none.csv"}, "none.csv: cannot read: No such file or directory"},
-      {{"--import-tools", "broken.csv"}, "broken.csv:2:9: error: length: long is no number"},
+      {{"--import-tools", "broken.csv"}, "broken.csv:2:9: error: a quote without its closing one"},
       {{"--import-tools", "tools.csv", "--map", "none.json"}, "none.json: cannot read"},
       {{"--import-tools", "tools.csv", "--map", "twice.json"},
        "twice.json:1:33: error: tools.b: tool a is at 101001 already"},
@@ -107,6 +107,31 @@ TEST_F(IsorunTools, ChangesNothingAfterAMistake) {
     EXPECT_THAT(result.err, HasSubstr(complaint));
     EXPECT_EQ(content(configuration), kCommentedShop);
   }
+}
+
+TEST_F(IsorunTools, WritesTheOthersWhereAnEntryIsMistaken) {
+  const std::string configuration = folder_.write("isocnc.json", kCommentedShop);
+  folder_.write("tools.csv", "T,name,length,radius\nT101001,cutter 20,long,10\nT102002,drill 8,90,4\n");
+  constexpr std::string_view kDifference =
+      "+ T102002 \"drill 8\": length 90, radius 4\n"
+      "! cutter 20: not taken: tools.csv:2:19: error: length: long is no number\n"
+      "1 new, 0 changed, 0 as before, 0 of the machine not in the library, 1 of the library not taken\n";
+  const CommandResult shown = isorun({"--import-tools", "tools.csv"});
+  EXPECT_EQ(shown.status, 1);
+  EXPECT_EQ(shown.out, std::string(kDifference) + "nothing is written; --write writes isocnc.json\n");
+  EXPECT_EQ(content(configuration), kCommentedShop);
+  const CommandResult written = isorun({"--import-tools", "tools.csv", "--write"});
+  EXPECT_EQ(written.status, 1);
+  EXPECT_EQ(written.out, std::string(kDifference) + "isocnc.json is written\n");
+  EXPECT_THAT(content(configuration), HasSubstr("\"name\": \"drill 8\""));
+  EXPECT_THAT(content(configuration), HasSubstr("\"length\": 120"));
+  // Nothing left to write: the entry is told all the same.
+  EXPECT_EQ(isorun({"--import-tools", "tools.csv", "--write"}).status, 1);
+  folder_.write("tools.csv", "T,name,length,radius\nT101001,cutter 20,long,10\n");
+  const CommandResult none = isorun({"--import-tools", "tools.csv", "--write"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.out, HasSubstr("tools.csv:2:19"));
+  EXPECT_THAT(none.err, HasSubstr("no tool is taken"));
 }
 
 TEST_F(IsorunTools, MakesAConfigurationWhereThereIsNone) {

@@ -52,6 +52,14 @@ std::string shown(const MachineConfiguration& machine, const Library& library, c
   return shown_import(std::get<ToolImport>(import), Language::English);
 }
 
+/// What is wrong with a library as a whole, and with its tools.
+std::vector<std::string> mistakes_of(const Library& library) {
+  std::vector<std::string> mistakes = library.mistakes;
+  for (const LibraryTool& tool : library.tools)
+    mistakes.insert(mistakes.end(), tool.mistakes.begin(), tool.mistakes.end());
+  return mistakes;
+}
+
 /// A library with one tool, in the words of its program, and what comes in at T101001. The lengths are computed by hand
 /// from the meaning of the library's own names.
 struct Case {
@@ -196,7 +204,7 @@ TEST(ToolImport, ReadsALibraryOfFreeCad) {
   const std::string cyclic = folder.write(
       "Library/cyclic.fctl", R"({"tools": [{"nr": 1, "path": "cyclic.fctl"}, {"nr": 2, "path": "none.fctb"}]})");
   EXPECT_THAT(
-      read_library(cyclic, false, Language::English).mistakes,
+      mistakes_of(read_library(cyclic, false, Language::English)),
       ElementsAre(
           HasSubstr("cyclic.fctl:1:12: error: tools[0].path: cyclic.fctl is no tool of FreeCAD: .fctb is needed"),
           HasSubstr("tools[1].path: none.fctb is neither beside the library nor in ../Bit")));
@@ -250,10 +258,74 @@ TEST(ToolImport, RefusesBrokenLibraries) {
       {"a.xml", "<tools/>", "a.xml: no library of tools by its name"},
   };
   for (const Broken& each : broken) {
-    const Library library = read(each.file, each.text);
-    ASSERT_FALSE(library.mistakes.empty()) << each.text;
-    EXPECT_THAT(library.mistakes.front(), HasSubstr(each.mistake)) << each.text;
+    const std::vector<std::string> mistakes = mistakes_of(read(each.file, each.text));
+    ASSERT_FALSE(mistakes.empty()) << each.text;
+    EXPECT_THAT(mistakes.front(), HasSubstr(each.mistake)) << each.text;
   }
+}
+
+/// A library with a good tool at T101001, called good, and a mistaken one, and how the import shows the latter.
+struct Mistaken {
+  std::string file;
+  std::string text;
+  std::string shown;
+};
+
+TEST(ToolImport, TakesTheOthersWhereAnEntryIsMistaken) {
+  const auto fusion_with = [](std::string_view other) {
+    return fmt::format(
+        R"({{"data": [{}, {{"description": "good", "unit": "millimeters", "type": "drill", "geometry": {{"DC": 6}}}}]}})",
+        other);
+  };
+  const Mistaken libraries[] = {
+      {"a.json", fusion_with("7"), "! not taken: a.json:1:11: error: data[0]: an object in braces is needed here\n"},
+      {"a.json", fusion_with(R"({"description": "odd", "unit": "furlongs", "post-process": {"number": 8}})"),
+       "! 8 odd: not taken: a.json:1:42: error: data[0].unit: furlongs is no unit known here: millimeters, inches\n"},
+      {"a.json", fusion_with(R"({"description": "odd", "type": "drill", "geometry": {"DC": -3, "SIG": 200}})"),
+       "! odd: not taken: a.json:1:70: error: data[0].geometry.DC: -3 is no length of a tool: above 0 and at most "
+       "10000 "
+       "mm\n    a.json:1:81: error: data[0].geometry.SIG: 200 is no angle of a tool: above 0 and below 180 degrees\n"},
+      {"a.json", R"({"4": {"units": "cubits", "description": "odd"}, "5": {"diameter": 6, "description": "good"}})",
+       "! 4 odd: not taken: a.json:1:17: error: 4.units: cubits is no unit known here: metric, imperial\n"},
+      {"a.tbl", "T4 D6 Rx ;odd\nT5 D6 ;good\n",
+       "! 4 odd: not taken: a.tbl:1:7: error: Rx is no entry of a tool table, such as T1, P1, D6 or Z40\n"},
+      {"a.tbl", "D6 ;odd\nT5 D6 ;good\n",
+       "! odd: not taken: a.tbl:1:1: error: a line of a tool table needs a T with a number\n"},
+      {"a.csv", "T;name;radius\n101;odd;3\nT101001;good;3\n",
+       "! odd: not taken: a.csv:2:1: error: T: 101 is no place of a tool: six digits for head, holder and tool, such "
+       "as "
+       "\"101001\"\n"},
+      {"a.csv", "T;name;radius\nT101002;odd;3;4\nT101001;good;3\n",
+       "! odd: not taken: a.csv:2:15: error: a row with more cells than there are columns; decimals with a comma need "
+       "another separator\n"},
+      {"a.csv", "T;name;radius\nT101001;good;3\nT101002;odd;three\n",
+       "! odd: not taken: a.csv:3:13: error: radius: three is no number\n"},
+  };
+  for (const Mistaken& each : libraries) {
+    const Library library = read(each.file, each.text);
+    const std::string difference = shown({}, library, map_of({{"good", 101001}}));
+    EXPECT_THAT(difference, HasSubstr("+ T101001 \"good\": radius 3\n")) << each.text;
+    EXPECT_THAT(difference, HasSubstr(each.shown)) << each.text;
+    EXPECT_THAT(difference, HasSubstr("1 new, 0 changed, 0 as before, 0 of the machine not in the library, 1 of the "
+                                      "library not taken\n"));
+    EXPECT_TRUE(
+        has_mistaken_entry(std::get<ToolImport>(import_tools({}, library, {.map = map_of({{"good", 101001}})}))));
+  }
+  const Library unmapped = read("a.csv", "number;name;radius\n1;good;3\n2;other;4\n");
+  EXPECT_FALSE(
+      has_mistaken_entry(std::get<ToolImport>(import_tools({}, unmapped, {.map = map_of({{"good", 101001}})}))))
+      << "a tool without a place is no mistake";
+}
+
+// The tool of the machine stays as it is, and is not called one that the library does not have.
+TEST(ToolImport, LeavesTheToolOfAMistakenEntryAlone) {
+  const MachineConfiguration machine = machine_of(
+      R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "name": "mill", "length": 100, "radius": 3}]}})");
+  const Library library = read("a.csv", "T;name;radius;length\nT101001;mill;4;long\nT101002;other;4;90\n");
+  EXPECT_EQ(shown(machine, library, {}),
+            "+ T101002 \"other\": length 90, radius 4\n"
+            "! mill: not taken: a.csv:2:16: error: length: long is no number\n"
+            "1 new, 0 changed, 0 as before, 0 of the machine not in the library, 1 of the library not taken\n");
 }
 
 TEST(ToolImport, RefusesWhatIsNotClear) {
