@@ -98,9 +98,12 @@ std::string_view column_called(std::string_view written) {
   return {};
 }
 
-/// Whether a spreadsheet would take a cell that starts so for a formula. A text that does is written after an
-/// apostrophe.
-bool is_formula_start(char letter) { return std::string_view("=+-@").find(letter) != std::string_view::npos; }
+/// Whether a spreadsheet would take a text for a formula. It is written after an apostrophe, and so is what would be
+/// read as such a text: `'=1`.
+bool is_like_formula(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of('\''), text.size()));
+  return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
+}
 
 /// How many mm a unit has; none for an unknown one.
 std::optional<double> millimeters_in(std::string_view unit) {
@@ -111,13 +114,13 @@ std::optional<double> millimeters_in(std::string_view unit) {
 
 /// A cell with its place in the text.
 struct CsvCell {
-  std::string text;
+  std::string text;  ///< With the blanks that stand in quotes.
   std::size_t at = 0;
 };
 using CsvRow = std::vector<CsvCell>;
 
-/// Divides a table into rows without the empty ones. Quoted cells may hold separators and ends of lines; "" is a quote
-/// in them.
+/// Divides a table into rows without the empty ones. Quoted cells may hold separators, ends of lines and blanks around
+/// their text; "" is a quote in them.
 class RowReader {
  public:
   RowReader(LibraryFile& file, char separator) : file_(file), text_(file.text()), separator_(separator) {}
@@ -163,9 +166,9 @@ class RowReader {
       }
     }
     const std::size_t end = std::min(text_.find_first_of(std::string{separator_, '\r', '\n'}, at_), text_.size());
-    cell.text += text_.substr(at_, end - at_);
-    cell.text.resize(cell.text.find_last_not_of(" \t") + 1);
-    if (cell.text.size() > 1 && cell.text.front() == '\'' && is_formula_start(cell.text[1])) cell.text.erase(0, 1);
+    const std::string_view unquoted = text_.substr(at_, end - at_);
+    cell.text += unquoted.substr(0, unquoted.find_last_not_of(" \t") + 1);
+    if (cell.text.starts_with('\'') && is_like_formula(cell.text)) cell.text.erase(0, 1);
     at_ = end;
     return cell;
   }
@@ -209,7 +212,7 @@ class ToolRow {
 
   /// The unit of this tool, where its row says one.
   void read_unit(const CsvCell& cell) {
-    const std::string unit = in_small_letters(cell.text);
+    const std::string unit = in_small_letters(trimmed(cell.text));
     if (const std::optional<double> millimeters = millimeters_in(unit)) {
       millimeters_ = *millimeters;
     } else if (!unit.empty()) {
@@ -222,13 +225,20 @@ class ToolRow {
   void read(std::string_view column, std::optional<double> millimeters, const CsvCell& cell) {
     if (cell.text.empty() || column == kUnit) return;
     const double of_row = std::exchange(millimeters_, millimeters.value_or(millimeters_));
-    read(column, cell);
+    const Key* const key = tool_key(column);
+    if (key != nullptr && key->kind == KeyKind::Text) {
+      *std::get<std::string*>(key->slot(configuration_, {0, 0})) = cell.text;
+    } else if (const CsvCell bare{std::string(trimmed(cell.text)), cell.at}; !bare.text.empty()) {
+      read(column, bare);
+    }
     millimeters_ = of_row;
   }
 
   LibraryTool take() {
     if (measured_length_) tool().length = measured_length_;
     if (measured_radius_) tool().radius = measured_radius_;
+    // Of anything but a bull nose, a 0 is what libraries write for what they leave open.
+    if (tool().corner_radius == 0 && tool().shape != "bull") tool().corner_radius.reset();
     const execution::ToolCode& code = tool().code;
     return {.number = std::move(number_),
             .tool = tool(),
@@ -241,13 +251,17 @@ class ToolRow {
  private:
   Tool& tool() { return configuration_.machine.tools->front(); }
 
+  /// In mm. What is in mm stays the number that it is.
+  double in_millimeters(double number) const { return millimeters_ == 1 ? number : tidy(number * millimeters_); }
+
+  /// `cell` has something in it, without blanks around that.
   void read(std::string_view column, const CsvCell& cell) {
     if (column == kNumber) {
       number_ = cell.text;
     } else if (column == kPlace) {
       read_place(cell);
     } else if (column == kDiameter) {
-      if (const auto diameter = length("diameter", cell)) tool().radius = tidy(*diameter / 2);
+      if (const auto diameter = length("diameter", cell)) tool().radius = *diameter / 2;
     } else if (column == kMeasuredLength.en) {
       measured_length_ = length(column, cell);
     } else if (column == kMeasuredRadius.en) {
@@ -266,7 +280,7 @@ class ToolRow {
   std::optional<double> length(std::string_view column, const CsvCell& cell) {
     const std::optional<double> number = number_in(cell.text);
     if (number && *number == 0) return std::nullopt;
-    const double length = tidy(number.value_or(0) * millimeters_);
+    const double length = in_millimeters(number.value_or(0));
     if (length > 0 && length <= kLongest) return length;
     fail(column, cell, number ? problems::kNeedsLength : kNoNumber);
     return std::nullopt;
@@ -284,9 +298,7 @@ class ToolRow {
   void read_key(const Key& key, const CsvCell& cell) {
     using Slot = configuration::ValueSlot;
     const Slot slot = key.slot(configuration_, {0, 0});
-    if (key.kind == KeyKind::Text) {
-      *std::get<std::string*>(slot) = cell.text;
-    } else if (key.kind == KeyKind::Choice) {
+    if (key.kind == KeyKind::Choice) {
       const std::string choice = in_small_letters(cell.text);
       if (std::find(key.choices.begin(), key.choices.end(), choice) == key.choices.end())
         return fail(key.name(), cell, kNoChoice, {fmt::format("{}", fmt::join(key.choices, ", "))});
@@ -300,8 +312,9 @@ class ToolRow {
         return fail(key.name(), cell, kOutOfRange, {std::string(key.name())});
       **whole = static_cast<int>(*number);
     } else {
-      const double value = key.unit.en == "mm" ? tidy(*number * millimeters_) : *number;
-      if (value == 0) return;  // As libraries write what they leave open.
+      const double value = key.unit.en == "mm" ? in_millimeters(*number) : *number;
+      const bool may_be_0 = key.range.minimum < 0 || (key.range.minimum == 0 && !key.range.exclusive_minimum);
+      if (value == 0 && !may_be_0) return;  // As libraries write what they leave open.
       if (value < key.range.minimum || value > key.range.maximum)
         return fail(key.name(), cell, kOutOfRange, {std::string(key.name())});
       *std::get<std::optional<double>*>(slot) = value;
@@ -316,7 +329,7 @@ class ToolRow {
       const std::optional<double> number = number_in(cell.text.substr(at, end - at));
       if (!number || *number < 0 || *number > kLongest) return fail("profile", cell, kNoProfile);
       if (is_whole) rows.emplace_back();
-      rows.back().push_back(tidy(*number * millimeters_));
+      rows.back().push_back(in_millimeters(*number));
       is_whole = !is_whole;
       at = cell.text.find_first_not_of(' ', end);
     }
@@ -347,7 +360,7 @@ std::vector<HeadedColumn> read_header(const CsvRow& header, LibraryFile& file, s
   for (const CsvCell& cell : header) {
     // `length (mm)`, `length [inch]`
     const std::size_t bracket = std::min(cell.text.find_first_of("(["), cell.text.size());
-    const std::string written = cell.text.substr(0, cell.text.substr(0, bracket).find_last_not_of(' ') + 1);
+    const std::string_view written = trimmed(std::string_view(cell.text).substr(0, bracket));
     HeadedColumn column{column_called(written), {}};
     if (column.name.empty() && !cell.text.empty()) ignored.push_back(configuration::shortened(cell.text));
     if (!column.name.empty() && has(column.name)) file.fail(cell.at, {}, kTwoColumns, {std::string(column.name)});
@@ -382,8 +395,9 @@ class CellWriter {
     if (!is_first_) text_ += separator_;
     is_first_ = false;
     // What a spreadsheet would take for a formula stays a text.
-    const bool is_formula = !text.empty() && is_formula_start(text.front());
-    if (!is_formula && text.find_first_of("\",;\t\r\n") == std::string_view::npos) {
+    const bool is_formula = is_like_formula(text);
+    const bool has_blanks_around = trimmed(text).size() != text.size();
+    if (!is_formula && !has_blanks_around && text.find_first_of("\",;\t\r\n") == std::string_view::npos) {
       text_ += text;
       return;
     }

@@ -8,7 +8,8 @@
 
 namespace isocnc::tool_library {
 
-/// A tool as the library of another program describes it. Lengths in mm, rounded to 10 nm.
+/// A tool as the library of another program describes it. Lengths in mm, rounded to 10 nm where they were in another
+/// unit.
 struct LibraryTool {
   std::string number;  ///< By which the library counts it; empty: none.
   configuration::Tool

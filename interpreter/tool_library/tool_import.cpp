@@ -76,7 +76,8 @@ Tool merged(Tool tool, const Tool& read) {
   if (!read.shape.empty() || read.profile) {  // These go together.
     tool.shape = read.shape;
     tool.profile = read.profile;
-    tool.corner_radius = read.corner_radius;
+    const bool means_nothing = tool.corner_radius == 0 && read.shape != "bull";  // It may stay.
+    if (!means_nothing) tool.corner_radius = read.corner_radius;
     tool.tip_angle = read.tip_angle;
   }
   take(&Tool::corner_radius);
@@ -95,13 +96,13 @@ bool drop_what_needs_more(Tool& tool) {
   bool dropped = false;
   if (!tool.length || (!tool.shape.empty() && !tool.radius)) {
     dropped = has_shape && !tool.length;
+    if (tool.shape == "bull") tool.corner_radius.reset();
     tool.shape.clear();
     tool.profile.reset();
-    tool.corner_radius.reset();
   }
   if (!tool.length) tool.body.clear();
   if (!tool.length || (!tool.profile && !tool.cut_length)) tool.shank.reset();
-  if (tool.shape != "bull" && tool.corner_radius) tool.corner_radius.reset();
+  if (tool.shape != "bull" && tool.corner_radius.value_or(0) > 0) tool.corner_radius.reset();
   return dropped;
 }
 
@@ -162,7 +163,8 @@ class Importer {
     std::map<std::string, std::vector<const LibraryTool*>> by_key;
     for (const LibraryTool& tool : library_.tools) {
       if (!tool.number.empty()) by_key[tool.number].push_back(&tool);
-      if (!tool.tool.name.empty() && tool.tool.name != tool.number) by_key[tool.tool.name].push_back(&tool);
+      const std::string name(trimmed(tool.tool.name));
+      if (!name.empty() && name != tool.number) by_key[name].push_back(&tool);
     }
     for (const auto& entry : map_.places) {
       const std::string& key = entry.first;
@@ -175,7 +177,8 @@ class Importer {
       // A name of the map means a tool whatever its number is.
       if (tools.size() > 1)
         std::erase_if(tools, [&](const LibraryTool* tool) {
-          return tool->tool.name != key && map_.places.contains(tool->tool.name);
+          const std::string name(trimmed(tool->tool.name));
+          return name != key && map_.places.contains(name);
         });
       if (tools.size() > 1) {
         constexpr std::size_t kShown = 4;

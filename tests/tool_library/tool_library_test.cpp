@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -471,8 +473,23 @@ TEST(ToolImport, HoldersOfOneNameStayApart) {
 
 // A table says all of the tools, in both languages, whatever they are called.
 TEST(ToolTable, IsReadAsItIsWritten) {
-  constexpr const char* kNames[] = {"",   "mill", "a;b",        "a,b", "\"q\"",   "=1+2",
-                                    "-5", "'x",   "due\nrighe", " ",   "\xC3\xA8"};
+  constexpr const char* kNames[] = {"",      "mill",       " mill", "mill  ",   "a;b", "a,b",
+                                    "\"q\"", " \"q\" ",    "=1+2",  "'=1",      "-5",  "''@x",
+                                    "'x",    "due\nrighe", " ",     "\xC3\xA8", "\tx", "a\r"};
+  // Numbers that are not a few thousandths: those of presetters, of inches, and next to a simple one.
+  const auto some_length = [](support::Random& random) {
+    const double simple = static_cast<double>(random.below(1'000'000) + 1) / 1000;
+    switch (random.below(4)) {
+      case 0:
+        return simple / 7;
+      case 1:
+        return simple / 100 * 25.4;
+      case 2:
+        return std::nextafter(simple, 0);
+      default:
+        return simple;
+    }
+  };
   for (const std::uint64_t seed : support::seeds(50)) {
     support::Random random(seed);
     std::vector<configuration::Tool> tools;
@@ -480,21 +497,35 @@ TEST(ToolTable, IsReadAsItIsWritten) {
       configuration::Tool tool;
       tool.code = {1, i, i};
       tool.name = kNames[random.below(std::size(kNames))];
-      if (random.below(2) == 0) tool.length = static_cast<double>(random.below(1'000'000) + 1) / 1000;
-      if (random.below(2) == 0) tool.radius = static_cast<double>(random.below(10'000) + 1) / 1000;
-      if (tool.length && random.below(3) == 0)
-        tool.profile = {{0, 0.5}, {static_cast<double>(random.below(50) + 1) / 64, 3}};
+      if (random.below(2) == 0) tool.length = some_length(random) + 40;
+      if (random.below(2) == 0) tool.radius = some_length(random);
+      if (random.below(4) == 0) tool.corner_radius = 0;  // Of another shape than a bull nose it means nothing.
+      if (tool.length && random.below(3) == 0) {
+        tool.profile = {{0, 0.5}, {static_cast<double>(random.below(50) + 1) / 64, some_length(random)}};
+      } else if (tool.length && tool.radius && random.below(2) == 0) {
+        tool.shape = random.below(2) == 0 ? "bull" : "flat";
+        if (tool.shape == "bull" && !tool.corner_radius) tool.corner_radius = std::min(*tool.radius / 3, 1.0);
+      }
       tools.push_back(tool);
     }
+    MachineConfiguration machine;
+    machine.tools = tools;
     for (const Language language : {Language::English, Language::Italian}) {
       const Library read = read_library_text("t.csv", columns_of(tools, language), false, Language::English);
       ASSERT_THAT(read.mistakes, IsEmpty());
       ASSERT_EQ(read.tools.size(), tools.size());
       for (std::size_t i = 0; i < tools.size(); ++i) {
         EXPECT_EQ(read.tools[i].tool.code, tools[i].code);
-        EXPECT_EQ(read.tools[i].tool.name, tools[i].name == " " ? "" : tools[i].name);
+        EXPECT_EQ(read.tools[i].tool.name, tools[i].name);
         EXPECT_EQ(read.tools[i].tool.length, tools[i].length);
         EXPECT_EQ(read.tools[i].tool.radius, tools[i].radius);
+        EXPECT_EQ(read.tools[i].tool.profile, tools[i].profile);
+      }
+      for (const std::string& table : {columns_of(tools, language), presetter_list(tools, language)}) {
+        const Library back = read_library_text("t.csv", table, false, Language::English);
+        ASSERT_THAT(mistakes_of(back), IsEmpty()) << table;
+        const ToolImport import = std::get<ToolImport>(import_tools(machine, back, {}));
+        EXPECT_EQ(import.unchanged, tools.size()) << shown_import(import, Language::English) << table;
       }
     }
   }
