@@ -44,6 +44,8 @@ constexpr Text kLeastZ{"Lowest Z", "Z minima"};
 constexpr Text kTime{"Time", "Tempo"};
 constexpr Text kUses{"Uses", "Usi"};
 constexpr Text kNoTools{"No tool is mounted.", "Non si monta nessun utensile."};
+constexpr Text kNoToolsYet{"No tool is mounted before the program stops: {}",
+                           "Non si monta nessun utensile prima che il programma si fermi: {}"};
 constexpr Text kZeros{"Zero points, and the room that the tip takes from them",
                       "Zeri, e ingombro della punta da ciascuno"};
 constexpr Text kZero{"Zero", "Zero"};
@@ -52,6 +54,9 @@ constexpr Text kFaceOfLine{"face, line {}", "faccia, riga {}"};
 constexpr Text kInMachine{"In the machine", "In macchina"};
 constexpr Text kNoZeros{"The program sets no zero point: it counts from the machine's.",
                         "Il programma non imposta uno zero: conta da quello della macchina."};
+constexpr Text kNoMotion{"Nothing moves from a zero point.", "Nulla si muove da uno zero."};
+constexpr Text kNoMotionYet{"Nothing moves from a zero point before the program stops: {}",
+                            "Nulla si muove da uno zero prima che il programma si fermi: {}"};
 constexpr Text kMachineZero{"machine", "macchina"};
 constexpr Text kMoreZeros{"and {} more", "e altri {}"};
 constexpr Text kSetup{"On the table, from the first zero of the program ({} in the machine)",
@@ -78,6 +83,7 @@ constexpr Text kCode{"Code", "Codice"};
 constexpr Text kMessage{"Message", "Messaggio"};
 constexpr Text kNothing{"Nothing: no M functions of the user, no registers, no VGPL.",
                         "Niente: nessuna funzione M dell'utente, nessun registro, nessuna VGPL."};
+constexpr Text kNothingYet{"Nothing before the program stops: {}", "Niente prima che il programma si fermi: {}"};
 constexpr Text kSetUpBy{"Set up by", "Attrezzato da"};
 constexpr Text kDate{"Date", "Data"};
 constexpr Text kCheckedBy{"Checked by", "Controllato da"};
@@ -132,7 +138,7 @@ Table tools_table(const Sheet& sheet, Language language) {
     const std::string name = running::tool_name(tool.code);
     table.rows.push_back({{"", tool.picture.lines.empty() ? nullptr : &tool.picture},
                           {name + (tool.name.empty() ? "" : " " + tool.name) + only_with(tool.values, language),
-                           nullptr, color_of_tool(i)},
+                           nullptr, stroke_of_tool(i)},
                           {shown(tool.length)},
                           {tool.radius ? number(2 * *tool.radius) : "–"},
                           {shown_speeds(tool)},
@@ -254,6 +260,10 @@ SheetDocument document_of(const Sheet& sheet, Language language) {
   SheetDocument document{worded(kTitle, language), sheet.program, worded(kPage, language), {}};
   const auto add = [&](DocumentBlock block) { document.blocks.push_back(std::move(block)); };
   const auto head = [&](const Text& text) { add(Heading{std::string(text.in(language))}); };
+  // A program that stops may do later what it has not done so far.
+  const auto nothing = [&](const Text& in_all, const Text& before_stop) {
+    add(Paragraph{sheet.stop.empty() ? worded(in_all, language) : dialect::format(before_stop, language, sheet.stop)});
+  };
   NamedValues facts;
   const auto fact = [&](const Text& name, std::string value) {
     facts.rows.emplace_back(name.in(language), std::move(value));
@@ -270,9 +280,9 @@ SheetDocument document_of(const Sheet& sheet, Language language) {
   if (!sheet.from_above.lines.empty())
     add(Drawings{{{&sheet.from_above, worded(kAbove, language)}, {&sheet.from_front, worded(kFront, language)}}});
   head(kTools);
-  sheet.tools.empty() ? add(Paragraph{worded(kNoTools, language)}) : add(tools_table(sheet, language));
+  sheet.tools.empty() ? nothing(kNoTools, kNoToolsYet) : add(tools_table(sheet, language));
   head(kZeros);
-  sheet.frames.empty() && !sheet.machine_room ? add(Paragraph{worded(kNoZeros, language)})
+  sheet.frames.empty() && !sheet.machine_room ? nothing(sheet.first_zero ? kNoMotion : kNoZeros, kNoMotionYet)
                                               : add(zeros_table(sheet, language));
   if (!sheet.bodies.empty()) {
     add(Heading{sheet.first_zero ? dialect::format(kSetup, language, position(*sheet.first_zero))
@@ -281,7 +291,7 @@ SheetDocument document_of(const Sheet& sheet, Language language) {
   }
   head(kExpects);
   NamedValues expects = expected(sheet, language);
-  expects.rows.empty() ? add(Paragraph{worded(kNothing, language)}) : add(std::move(expects));
+  expects.rows.empty() ? nothing(kNothing, kNothingYet) : add(std::move(expects));
   head(kFindings);
   sheet.findings.empty() ? add(Paragraph{worded(kNoFindings, language)}) : add(findings_table(sheet, language));
   if (sheet.findings.size() > kMaxFindings)

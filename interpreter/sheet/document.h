@@ -14,8 +14,8 @@ namespace isocnc::sheet {
 
 struct TableCell {
   std::string text;
-  const Drawing* drawing = nullptr;          ///< Instead of the text; null for none.
-  std::optional<std::uint32_t> swatch = {};  ///< A square of this color before the text, 0xRRGGBB.
+  const Drawing* drawing = nullptr;      ///< Instead of the text; null for none.
+  std::optional<PenStroke> swatch = {};  ///< Before the text: a square of its color, or a piece of a dashed line.
 };
 
 struct TableColumn {

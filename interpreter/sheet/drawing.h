@@ -16,10 +16,10 @@ struct PaperPoint {
 };
 
 struct PenStroke {
-  std::uint32_t color = 0;  ///< 0xRRGGBB
-  double width = 0.2;       ///< mm; 0: no line around what is filled.
-  bool is_dashed = false;
-  std::optional<std::uint32_t> fill;  ///< Of a closed row of points.
+  std::uint32_t color = 0;                 ///< 0xRRGGBB
+  double width = 0.2;                      ///< mm; 0: no line around what is filled.
+  std::optional<std::uint32_t> fill = {};  ///< Of a closed row of points.
+  std::vector<double> dashes = {};  ///< Their lengths, and those of the gaps after them, mm; empty: a whole line.
 };
 
 struct DrawnLine {

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "interpreter/dialect/locale.h"
 #include "interpreter/sheet/document.h"
@@ -33,6 +34,7 @@ tr { break-inside: avoid; }
 figure { margin: 0; break-inside: avoid; }
 figcaption { color: #555; font-size: 8pt; }
 .swatch { display: inline-block; width: 2.6mm; height: 2.6mm; margin-right: 1.5mm; }
+.dashes { display: inline-block; margin-right: 1.5mm; vertical-align: middle; line-height: 0; }
 .warning { padding: 1.5mm 2mm; border: 0.4mm solid #b42318; color: #b42318; font-weight: bold; }
 .blanks { display: flex; gap: 6mm; margin-top: 10mm; break-inside: avoid; }
 .blanks span { flex: 1; border-top: 0.2mm solid #555; padding-top: 1mm; color: #555; font-size: 8pt; }
@@ -51,7 +53,8 @@ void append_drawing(std::string& html, const Drawing& drawing) {
   for (const DrawnLine& line : drawing.lines) {
     fmt::format_to(std::back_inserter(html), "<path stroke=\"{}\" stroke-width=\"{:g}\"", hex(line.stroke.color),
                    line.stroke.width);
-    if (line.stroke.is_dashed) html += " stroke-dasharray=\"0.8 0.5\"";
+    if (!line.stroke.dashes.empty())
+      fmt::format_to(std::back_inserter(html), " stroke-dasharray=\"{:g}\"", fmt::join(line.stroke.dashes, " "));
     if (line.stroke.fill) fmt::format_to(std::back_inserter(html), " fill=\"{}\"", hex(*line.stroke.fill));
     html += " d=\"";
     bool is_first = true;
@@ -66,6 +69,18 @@ void append_drawing(std::string& html, const Drawing& drawing) {
                    "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"2.6\" fill=\"#333\">{}</text>", text.at.x, text.at.y,
                    text::xml_escaped(text.text));
   html += "</svg>";
+}
+
+/// The mark of what is drawn so.
+void append_swatch(std::string& html, PenStroke stroke) {
+  if (stroke.dashes.empty()) {
+    html += fmt::format("<span class=\"swatch\" style=\"background:{}\"></span>", hex(stroke.color));
+    return;
+  }
+  stroke.width = 0.5;
+  html += "<span class=\"dashes\">";
+  append_drawing(html, {.width = 6, .height = 2.6, .lines = {{stroke, {{0.3, 1.3}, {5.7, 1.3}}}}, .texts = {}});
+  html += "</span>";
 }
 
 /// Writes each kind of block.
@@ -95,8 +110,7 @@ class HtmlWriter {
         html_ += table.columns[i].is_number       ? "<td class=\"number\">"
                  : table.columns[i].is_kept_whole ? "<td class=\"whole\">"
                                                   : "<td>";
-        if (row[i].swatch)
-          html_ += fmt::format("<span class=\"swatch\" style=\"background:{}\"></span>", hex(*row[i].swatch));
+        if (row[i].swatch) append_swatch(html_, *row[i].swatch);
         if (row[i].drawing != nullptr) append_drawing(html_, *row[i].drawing);
         add("{}</td>", row[i].text);
       }

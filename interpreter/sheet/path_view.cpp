@@ -27,7 +27,18 @@ static constexpr double kDrawingMargin = 1;
 static constexpr double kTopMargin = kAxisLength + 1;  ///< The work often begins at the zero, whose axis goes up.
 static constexpr double kMinRoom = 10;                 ///< mm of the machine that fill the picture at least.
 
-std::uint32_t color_of_tool(std::size_t place) { return kColors[place % std::size(kColors)]; }
+/// How often the colors have been used before.
+static std::size_t round_of(std::size_t place) { return place / std::size(kColors); }
+
+PenStroke stroke_of_tool(std::size_t place) {
+  PenStroke stroke{.color = kColors[place % std::size(kColors)], .width = 0.25};
+  // Long dashes, with one more dot after each from round to round.
+  for (std::size_t round = 0; round < round_of(place); ++round)
+    stroke.dashes.insert(stroke.dashes.end(), {round == 0 ? 1.8 : 0.1, 0.7});
+  return stroke;
+}
+
+std::vector<double> fine_dashes() { return {0.8, 0.5}; }
 
 PathView::PathView(const Axes& axes, const std::array<geometry::Range, 3>& room, double max_width, double max_height)
     : axes_(axes), room_(room), cell_(kFinestCell) {
@@ -155,8 +166,20 @@ void PathView::add_origin(const Vec3& origin, std::string name) {
   origins_.texts.push_back({{at.x + 0.8, at.y - 0.8}, std::move(name)});
 }
 
-/// Of feed moves.
-static std::uint32_t color_of_style(std::size_t style) { return style == 1 ? kNoToolColor : color_of_tool(style - 2); }
+static PenStroke stroke_of_style(std::size_t style) {
+  if (style == 0) return {.color = kRapidColor, .width = 0.12, .fill = {}, .dashes = fine_dashes()};
+  return style == 1 ? PenStroke{.color = kNoToolColor, .width = 0.25} : stroke_of_tool(style - 2);
+}
+
+/// A plunge of a tool: a dot; with a ring in place of dashes, and a dot in that for more of them.
+static std::vector<DrawnLine> dot_of_style(std::size_t style, const PaperPoint& at) {
+  const std::size_t round = style == 1 ? 0 : round_of(style - 2);
+  const std::uint32_t color = stroke_of_style(style).color;
+  std::vector<DrawnLine> dot{{{.color = color, .width = kDot}, {at}}};
+  if (round > 0) dot.push_back({{.color = 0xFFFFFF, .width = 0.6 * kDot}, {at}});
+  if (round > 1) dot.push_back({{.color = color, .width = 0.3 * kDot}, {at}});
+  return dot;
+}
 
 Drawing PathView::finish() {
   std::stable_sort(segments_.begin(), segments_.end(),
@@ -164,14 +187,11 @@ Drawing PathView::finish() {
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const PaperSegment& segment = segments_[i];
     const bool goes_on = i > 0 && segments_[i - 1].style == segment.style && segments_[i - 1].to == segment.from;
-    if (!goes_on)
-      drawing_.lines.push_back({segment.style == 0 ? PenStroke{.color = kRapidColor, .width = 0.12, .is_dashed = true}
-                                                   : PenStroke{.color = color_of_style(segment.style), .width = 0.25},
-                                {point_of(segment.from)}});
+    if (!goes_on) drawing_.lines.push_back({stroke_of_style(segment.style), {point_of(segment.from)}});
     drawing_.lines.back().points.push_back(point_of(segment.to));
   }
   for (const auto& [style, cell] : dots_)
-    drawing_.lines.push_back({{.color = color_of_style(style), .width = kDot}, {point_of(cell)}});
+    for (DrawnLine& part : dot_of_style(style, point_of(cell))) drawing_.lines.push_back(std::move(part));
   drawing_.lines.insert(drawing_.lines.end(), origins_.lines.begin(), origins_.lines.end());
   drawing_.texts = std::move(origins_.texts);
   const double length = plot::round_length((drawing_.width - 2 * kDrawingMargin) / 3 / scale_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -15,8 +16,12 @@
 
 namespace isocnc::sheet {
 
-/// The color of a tool by its place in the order of first use, from 0.
-std::uint32_t color_of_tool(std::size_t place);
+/// How feed moves of a tool are drawn, by its place in the order of first use, from 0: no two tools alike. Twelve have
+/// whole lines of a color each, the next ones dashed lines of these colors.
+PenStroke stroke_of_tool(std::size_t place);
+
+/// Of what is dashed without telling tools apart.
+std::vector<double> fine_dashes();
 
 /// A view of a path along an axis of the machine, drawn to scale within a width and a height. What falls on the same
 /// tenths of a millimeter of paper is drawn once, and a drawing that is still too full becomes coarser, so that it is

@@ -45,7 +45,10 @@ void PdfPage::draw(const DrawnLine& line, const PaperPoint& corner) {
   const bool has_line = line.stroke.width > 0;
   if (has_line) content_ += color_of(line.stroke.color, "RG") + fmt::format("{:.3f} w\n", x_of(line.stroke.width));
   if (line.stroke.fill) content_ += color_of(*line.stroke.fill, "rg");
-  content_ += line.stroke.is_dashed ? "[2.3 1.4] 0 d\n" : "[] 0 d\n";
+  std::string dashes;
+  for (const double length : line.stroke.dashes)
+    dashes += fmt::format("{}{:.1f}", dashes.empty() ? "" : " ", x_of(length));
+  content_ += fmt::format("[{}] 0 d\n", dashes);
   bool is_first = true;
   for (const PaperPoint& point : line.points)
     fmt::format_to(std::back_inserter(content_), "{:.2f} {:.2f} {}\n", x_of(corner.x + point.x),

@@ -18,6 +18,7 @@ constexpr double kLineHeight = 1.28;  ///< Of the size of type.
 constexpr double kPadding = 1.4;      ///< Beside the text of a cell.
 constexpr double kRowGap = 0.9;       ///< Above and below it.
 constexpr double kSwatch = 2.4;
+constexpr double kDashedSwatch = 6;
 constexpr std::uint32_t kGray = 0x555555;
 constexpr std::uint32_t kRule = 0xC8CCD0;
 constexpr std::uint32_t kWarning = 0xB42318;
@@ -201,9 +202,8 @@ class PdfWriter {
     std::size_t lines = 1;
     double drawing = 0;
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const double swatch = row[i].swatch ? kSwatch + 1.4 : 0;
-      texts.push_back(
-          wrapped(encoded(row[i].text), PdfFont::Regular, kType, columns_[i].width - 2 * kPadding - swatch));
+      texts.push_back(wrapped(encoded(row[i].text), PdfFont::Regular, kType,
+                              columns_[i].width - 2 * kPadding - swatch_width(row[i])));
       lines = std::max(lines, texts.back().size());
       if (row[i].drawing != nullptr) drawing = std::max(drawing, row[i].drawing->height);
     }
@@ -223,6 +223,22 @@ class PdfWriter {
     rule(0.15, kRule);
   }
 
+  /// With the gap before the text.
+  static double swatch_width(const TableCell& cell) {
+    if (!cell.swatch) return 0;
+    return (cell.swatch->dashes.empty() ? kSwatch : kDashedSwatch) + 1.4;
+  }
+
+  void draw_swatch(PenStroke stroke, double left, double middle) {
+    if (!stroke.dashes.empty()) {
+      stroke.width = 0.5;
+      return page().draw({stroke, {{left, middle}, {left + kDashedSwatch, middle}}});
+    }
+    page().draw(
+        {{.color = 0, .width = 0, .fill = stroke.color}, {{0, 0}, {kSwatch, 0}, {kSwatch, kSwatch}, {0, kSwatch}}},
+        {left, middle - kSwatch / 2});
+  }
+
   /// In the middle of the height of its row.
   void write_cell(const TableCell& cell, const std::vector<std::string>& lines, const PlacedColumn& column,
                   double height) {
@@ -230,14 +246,8 @@ class PdfWriter {
     if (cell.drawing != nullptr)
       page().draw(*cell.drawing,
                   {column.left + (column.width - cell.drawing->width) / 2, middle - cell.drawing->height / 2});
-    double left = 0;
-    if (cell.swatch) {
-      left = kSwatch + 1.4;
-      const PaperPoint corner{column.left + kPadding, middle - kSwatch / 2};
-      page().draw({{.color = 0, .width = 0, .is_dashed = false, .fill = cell.swatch},
-                   {{0, 0}, {kSwatch, 0}, {kSwatch, kSwatch}, {0, kSwatch}}},
-                  corner);
-    }
+    const double left = swatch_width(cell);
+    if (cell.swatch) draw_swatch(*cell.swatch, column.left + kPadding, middle);
     double y = middle - static_cast<double>(lines.size()) * kType * kLineHeight / 2 + kType;
     for (const std::string& line : lines) {
       page().write({text_left(column, width_of(line, PdfFont::Regular, kType)) + left, y}, line, PdfFont::Regular,

@@ -202,9 +202,9 @@ std::string stop_of(const running::RunResult& result, Language language) {
 std::optional<PenStroke> stroke_of(verification::BodyRole role) {
   switch (role) {
     case verification::BodyRole::Stock:
-      return PenStroke{.color = 0x8A6D3B, .width = 0.25, .is_dashed = false, .fill = 0xF7EFDF};
+      return PenStroke{.color = 0x8A6D3B, .width = 0.25, .fill = 0xF7EFDF};
     case verification::BodyRole::Fixture:
-      return PenStroke{.color = 0x6B7280, .width = 0.25, .is_dashed = false, .fill = 0xE5E7EB};
+      return PenStroke{.color = 0x6B7280, .width = 0.25, .fill = 0xE5E7EB};
     case verification::BodyRole::Target:
     case verification::BodyRole::Spoilboard:
     case verification::BodyRole::Machine:
@@ -236,7 +236,7 @@ PenStroke seen_from_above(const SheetBody& body, const SheetBody* blank) {
   PenStroke stroke = *stroke_of(body.role);
   const bool is_below = blank != nullptr && &body != blank && body.room[2].maximum <= blank->room[2].minimum;
   if (!is_below) return stroke;
-  stroke.is_dashed = true;
+  stroke.dashes = fine_dashes();
   stroke.fill.reset();
   return stroke;
 }

@@ -76,7 +76,7 @@ Drawing picture_of_tool(const verification::ToolBodies* bodies, const configurat
   const double scale = std::min(max_height / height, max_width / (2 * radius));
   Drawing drawing{.width = 2 * radius * scale, .height = height * scale, .lines = {}, .texts = {}};
   for (const auto& [profile, color] : profiles) {
-    DrawnLine line{{.color = kLineColor, .width = 0.1, .is_dashed = false, .fill = color}, {}};
+    DrawnLine line{{.color = kLineColor, .width = 0.1, .fill = color}, {}};
     const auto add = [&](double z, double r) { line.points.push_back({(radius + r) * scale, (height - z) * scale}); };
     for (const auto& [z, r] : profile) add(z, r);
     for (auto each = profile.rbegin(); each != profile.rend(); ++each) add(each->first, -each->second);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -210,6 +211,63 @@ TEST(Survey, SaysWithWhatItRunsAndWhereItStopsAsAsked) {
       survey({.text = "M06 T101001\nG04 P5\nG04 P9\nM02\n", .name = "", .bytes = "", .run = run, .machine = machine});
   EXPECT_EQ(sheet.values, "VGPL = 2, V3 = 7");
   EXPECT_EQ(sheet.stop, "the run ends before line 3, as asked");
+}
+
+/// Where a program has not come far, nothing is said of what it would do.
+TEST(SheetOfAStoppedProgram, SaysWhatStoppedIt) {
+  struct Case {
+    std::string text, stop;
+    bool has_tool, has_motion;
+  };
+  const Case cases[] = {
+      {"G01 X\nM02\n", "ISO004 on line 1", false, false},
+      {"M06 T101001\nG01 X\nM02\n", "ISO004 on line 2", true, false},
+      {"G92 X1 Y2 Z3\nG01 X\nM02\n", "ISO004 on line 2", false, false},
+      {"M06 T101001\nG92 X1 Y2 Z3\nG00 X1\nG01 X\nM02\n", "ISO004 on line 4", true, true},
+  };
+  for (const Case& each : cases) {
+    const std::string html = html_of(sheet_of(each.text), Language::English);
+    const auto says = [&](const std::string& sentence) { return html.find(sentence) != std::string::npos; };
+    EXPECT_TRUE(says("The program does not come to its end: " + each.stop)) << each.text;
+    EXPECT_EQ(says("No tool is mounted before the program stops: " + each.stop), !each.has_tool) << each.text;
+    EXPECT_EQ(says("Nothing moves from a zero point before the program stops: " + each.stop), !each.has_motion)
+        << each.text;
+    EXPECT_TRUE(says("Nothing before the program stops: " + each.stop)) << each.text;
+    EXPECT_FALSE(says("The program sets no zero point")) << each.text;
+    EXPECT_FALSE(says("No tool is mounted.")) << each.text;
+  }
+  const std::string whole = html_of(sheet_of("G04 P1\nM02\n"), Language::Italian);
+  EXPECT_THAT(whole, HasSubstr("Il programma non imposta uno zero"));
+  EXPECT_THAT(html_of(sheet_of("G92 X5\nM02\n"), Language::English), HasSubstr("Nothing moves from a zero point.<"));
+  EXPECT_THAT(whole, HasSubstr("Non si monta nessun utensile."));
+}
+
+/// The colors are twelve: what follows is told apart by its dashes, in the pictures and in the legend.
+TEST(SheetOfManyTools, HasNoTwoOfThemAlike) {
+  constexpr int kTools = 40;
+  std::string text;
+  for (int tool = 1; tool <= kTools; ++tool)
+    text += fmt::format("M06 T101{:03}\nS9000 M03\nG00 X0 Y{} Z5\nG01 Z-1 F900\nX200\nG00 Z5\nM05\n", tool, 5 * tool);
+  const Sheet sheet = sheet_of(text + "M02\n");
+  ASSERT_EQ(sheet.tools.size(), std::size_t{kTools});
+  std::set<std::pair<std::uint32_t, std::vector<double>>> strokes;
+  for (const DrawnLine& line : sheet.from_above.lines)
+    if (line.stroke.width == 0.25) strokes.emplace(line.stroke.color, line.stroke.dashes);
+  EXPECT_EQ(strokes.size(), std::size_t{kTools});
+  std::set<std::uint32_t> colors;
+  for (const auto& [color, dashes] : strokes) colors.insert(color);
+  EXPECT_EQ(colors.size(), 12U);
+
+  // The mark before each tool in the table.
+  const std::string html = html_of(sheet, Language::English);
+  std::set<std::string> marks;
+  for (int tool = 1; tool <= kTools; ++tool) {
+    const std::size_t end = html.find(fmt::format("T101{:03}", tool));
+    marks.insert(html.substr(html.rfind("<td>", end), end - html.rfind("<td>", end)));
+  }
+  EXPECT_EQ(marks.size(), std::size_t{kTools});
+  // A PDF has its lengths in points.
+  EXPECT_THAT(pdf_of(sheet, Language::English), HasSubstr("[5.1 2.0 0.3 2.0] 0 d\n"));
 }
 
 TEST(SheetAsHtml, NeverTakesANameForMarkup) {
