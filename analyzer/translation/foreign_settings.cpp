@@ -81,12 +81,12 @@ void TranslationRun::apply_offsets(CurrentBlock& current) {
   const ForeignWord* const d = current.find('D');
   const bool ends_length = current.has(LengthOff) || (h != nullptr && h->value == 0);
   const bool takes_length = !ends_length && (current.has(Length) || h != nullptr);
-  const auto is_of_other = [&](const ForeignWord* word) {
-    return word != nullptr && tool_ >= 0 && word->value != static_cast<double>(tool_);
+  const auto is_of_other = [&](const ForeignWord* word, int offset) {
+    return word != nullptr && tool_ >= 0 && word->value != static_cast<double>(tool_) + offset;
   };
   const std::vector<std::string> mounted{fmt::format("T{}", tool_)};
   if (takes_length) {
-    if (is_of_other(h)) {
+    if (is_of_other(h, setup_.map.length_offset)) {
       leave_out(current, Untranslatable::ToolOffsetOfOther, *h, mounted);
       suspended_by_.insert(LengthGiven);
     } else if (h != nullptr) {
@@ -100,7 +100,7 @@ void TranslationRun::apply_offsets(CurrentBlock& current) {
     length_active_ = false;
   }
   if (current.has(Compensation) || current.has(CompensationOff)) suspended_by_.erase(Compensation);
-  if (current.has(Compensation) && is_of_other(d)) {
+  if (current.has(Compensation) && is_of_other(d, setup_.map.radius_offset)) {
     leave_out(current, Untranslatable::ToolOffsetOfOther, *d, mounted);
     suspended_by_.insert(Compensation);
   }

@@ -51,8 +51,9 @@ constexpr ReasonText kReasonTexts[] = {
      {"no tool is mounted before this motion: name the first one in the map, under start",
       "nessun utensile è montato prima di questo movimento: indicare il primo nella mappa, in start"}},
     {Untranslatable::ToolOffsetOfOther,
-     {"{0} takes the data of another tool than the one mounted, {1}",
-      "{0} prende i dati di un utensile diverso da quello montato, {1}"}},
+     {"{0} takes the data of another tool than the one mounted, {1}; where they are its own, the map says so under "
+      "offsets",
+      "{0} prende i dati di un utensile diverso da quello montato, {1}; se sono i suoi, la mappa lo dice in offsets"}},
     {Untranslatable::LengthOff,
      {"after G49 Z counts without the tool's length, which here always counts",
       "dopo la G49 Z conta senza la lunghezza dell'utensile, che qui conta sempre"}},

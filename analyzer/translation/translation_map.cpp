@@ -38,6 +38,9 @@ constexpr Text kNoFunctionName{"{0} is no M that may be mapped: M00 to M999 but 
                                "M99"};
 constexpr Text kNoShopFunction{"{0} is no M of the shop: M1 or M7 to M999, or null to leave it out",
                                "{0} non è una M dell'officina: M1 o da M7 a M999, o null per ometterla"};
+constexpr Text kNoOffsetName{"{0} is neither H nor D", "{0} non è né H né D"};
+constexpr Text kNeedsOffset{"a whole number from 0 to 999 is needed here", "qui ci vuole un numero intero da 0 a 999"};
+constexpr double kMaxOffset = 999;
 constexpr double kFarthest = 1e6;  // mm.
 
 /// The whole number after a letter, `M08`; -1 if the text is none.
@@ -98,6 +101,7 @@ class MapReader {
     if (member.key == "zeros") return each([&](const JsonMember& zero) { read_zero(zero); });
     if (member.key == "references") return each([&](const JsonMember& point) { read_reference(point); });
     if (member.key == "functions") return each([&](const JsonMember& function) { read_function(function); });
+    if (member.key == "offsets") return each([&](const JsonMember& offset) { read_offset(offset); });
     if (member.key == "start") {
       if (auto code = tool_place(member.value, member.key)) map_.start = std::move(*code);
       return;
@@ -186,6 +190,18 @@ class MapReader {
     if (number < 1 || number > 999 || (number >= 2 && number <= 6))
       return fail(member.value.at, key, kNoShopFunction, {configuration::shortened(member.value.string)});
     map_.functions[name] = number;
+  }
+
+  /// `"D": 30`: the radius of T1 is at D31.
+  void read_offset(const JsonMember& member) {
+    const std::string key = path_of("offsets", member);
+    if (member.key != "H" && member.key != "D")
+      return fail(member.at, key, kNoOffsetName, {configuration::shortened(member.key)});
+    const JsonValue& value = member.value;
+    const bool is_whole = value.kind == JsonValue::Kind::Number && value.number >= 0 && value.number <= kMaxOffset &&
+                          value.number == std::floor(value.number);
+    if (!is_whole) return fail(value.at, key, kNeedsOffset);
+    (member.key == "H" ? map_.length_offset : map_.radius_offset) = static_cast<int>(value.number);
   }
 
   template <class Function>

@@ -24,6 +24,8 @@ struct TranslationMap {
   std::optional<double> peck_clearance;      ///< How far pecks withdraw (G73) or stop before the last depth (G83).
   bool starts_in_inches = false;             ///< Until a G20 or G21.
   std::optional<bool> counts_thousandths;    ///< Of Fanuc: what a number without a decimal point counts.
+  int length_offset = 0;                     ///< What H of a tool is larger than its T.
+  int radius_offset = 0;                     ///< What D of a tool is larger than its T.
 };
 
 /// The map, or all mistakes of its text in their order.

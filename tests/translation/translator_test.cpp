@@ -187,6 +187,39 @@ TEST(Translation, WritesNoMotionFromAPlaceThatMayBeAnother) {
     EXPECT_EQ(code_of(original, control), expected) << original;
 }
 
+/// Shops that keep the radii at D31 and up, and lengths at H101 and up, say so; all other numbers are still those of
+/// another tool.
+TEST(Translation, TakesOffsetsWhereTheMapSaysTheyAre) {
+  struct Case {
+    std::string_view offsets, d, h;
+    bool is_compensated, has_length;
+  };
+  for (const auto& [offsets, d, h, is_compensated, has_length] : std::vector<Case>{
+           {R"({})", "D1", "H1", true, true},
+           {R"({})", "D31", "H101", false, false},
+           {R"({"D": 30})", "D31", "H1", true, true},
+           {R"({"D": 30})", "D1", "H101", false, false},
+           {R"({"D": 30})", "D32", "H1", false, true},
+           {R"({"D": 30, "H": 100})", "D31", "H101", true, true},
+           {R"({"D": 30, "H": 100})", "D31", "H1", true, false},
+           {R"({"D": 0})", "D1", "H1", true, true},
+       }) {
+    TranslationSetup setup = setup_for(SourceControl::Fanuc);
+    const TranslationMap map = map_in("{\"offsets\": " + std::string(offsets) + "}");
+    setup.map.length_offset = map.length_offset;
+    setup.map.radius_offset = map.radius_offset;
+    const auto program = [&](const std::string& text) {
+      return translate("G00 X0. Y0. Z9.\nT1 M06\n" + text + "\nM30\n", setup).program;
+    };
+    EXPECT_EQ(program("G01 X1. F1.\nG41 " + std::string(d) + "\nG01 X5. Y2.\nG40").find("NOT TRANSLATED") ==
+                  std::string::npos,
+              is_compensated)
+        << offsets << d;
+    EXPECT_EQ(program("G43 " + std::string(h) + "\nG00 Z5.").find("NOT TRANSLATED") == std::string::npos, has_length)
+        << offsets << h;
+  }
+}
+
 TEST(Translation, KeepsTheWordsOfWhatStaysAComment) {
   EXPECT_EQ(translated("G51 X0. Y0. P2000", SourceControl::Fanuc), "; NOT TRANSLATED: G51 X0. Y0. P2000\n");
   EXPECT_EQ(translated("G68.2 X0. Y1. Z2. I0. J45. K0.", SourceControl::Fanuc),
@@ -365,6 +398,12 @@ TEST(TranslationMap, ReportsEachMistakeAtItsPlace) {
            {R"({"units": "cm"})", "not one of mm, inch", 10},
            {R"({"wholeNumbers": true})", "text in quotes", 17},
            {R"({"peckClearance": 0})", "a length above 0", 18},
+           {R"({"offsets": {"D": 1.5}})", "a whole number from 0 to 999", 18},
+           {R"({"offsets": {"D": -30}})", "a whole number from 0 to 999", 18},
+           {R"({"offsets": {"D": "30"}})", "a whole number from 0 to 999", 18},
+           {R"({"offsets": {"H": 1e300}})", "a whole number from 0 to 999", 18},
+           {R"({"offsets": {"T": 30}})", "T is neither H nor D", 13},
+           {R"({"offsets": 30})", "an object in braces", 12},
            {R"({"tool": {}})", "unknown key", 1},
            {R"([])", "an object", 0},
            {R"({"tools": )", "the file ends here", 10},
