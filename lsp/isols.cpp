@@ -42,9 +42,9 @@ system::ExitStatus run_main(int argc, char** argv) {
        .version = ISOCNC_VERSION,
        .purpose = {"language server for ISOCNC programs", "language server per i programmi ISOCNC"},
        .operands = "",
-       .paragraphs = {{"isols speaks the language server protocol, version 3.17. An editor starts it, and shows "
+       .paragraphs = {{"isols speaks the language server protocol, version 3.18. An editor starts it, and shows "
                        "what isolint would find while the program is being written.",
-                       "isols parla il language server protocol, versione 3.17. Un editor lo avvia e, mentre si scrive "
+                       "isols parla il language server protocol, versione 3.18. Un editor lo avvia e, mentre si scrive "
                        "il programma, mostra ciò che troverebbe isolint."},
                       {"Programs are checked as the isocnc.json beside them or above says, as by isolint.",
                        "I programmi vengono verificati come dice l'isocnc.json nella loro cartella o in una sopra, "
