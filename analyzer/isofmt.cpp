@@ -240,7 +240,7 @@ class FormatRun {
 
   void format_file(const std::filesystem::path& file, const FileSettings& settings) {
     const bool from_stdin = file == "-";
-    const std::string name = from_stdin ? options_.stdin_name : system::generic_name(file);
+    const std::string name = system::generic_name(from_stdin ? std::filesystem::path(options_.stdin_name) : file);
     std::optional<system::FileReplacement> replacement;
     if (mode_ == OutputMode::InPlace) replacement.emplace(file);  // Before the file is read.
     const auto opened =
@@ -361,7 +361,7 @@ class TranslationCommand {
   ExitStatus run(const std::filesystem::path& file) {
     if (!read_setup()) return ExitStatus::Failure;
     const bool from_stdin = file == "-";
-    const std::string name = from_stdin ? options_.stdin_name : system::generic_name(file);
+    const std::string name = system::generic_name(from_stdin ? std::filesystem::path(options_.stdin_name) : file);
     const auto opened =
         from_stdin ? SourceFile::read_stream(system::kStandardInput, language_) : SourceFile::open(file, language_);
     if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);

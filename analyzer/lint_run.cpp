@@ -108,7 +108,8 @@ CheckedFile LintRun::check(const std::filesystem::path& path, const selection::P
   const bool from_stdin = path == "-";
   std::optional<fixing::FileFixing> fixing;
   if (options_.fix && !options_.diff && !from_stdin) fixing.emplace(path);  // Before the file is read.
-  CheckedFile checked{from_stdin ? options_.stdin_name : system::generic_name(path), open(path), settings};
+  CheckedFile checked{system::generic_name(from_stdin ? std::filesystem::path(options_.stdin_name) : path), open(path),
+                      settings};
   const auto* const source = std::get_if<SourceFile>(&checked.opened);
   if (!source) return checked;
   if (options_.fix || options_.diff) {

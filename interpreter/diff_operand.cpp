@@ -4,6 +4,7 @@
 #include "interpreter/dialect/format.h"
 #include "interpreter/git/revision.h"
 #include "interpreter/system/descriptor.h"
+#include "interpreter/system/paths.h"
 
 namespace isocnc::interpreter {
 
@@ -22,11 +23,12 @@ static constexpr std::string_view kIdleProgram = "M02\n";
 std::variant<DiffOperand, std::string> diff_operand(const std::string& word, Language language) {
   if (word == "-" || word == "/dev/stdin") return DiffOperand{.name = "<stdin>", .place = {}, .file = {}, .bytes = {}};
   const std::optional<git::RevisionFile> revision = git::revision_file(word);
-  if (!revision) return DiffOperand{.name = word, .place = word, .file = word, .bytes = {}};
+  if (!revision) return DiffOperand{.name = system::generic_name(word), .place = word, .file = word, .bytes = {}};
   auto read = git::read(*revision, language);
   if (auto* const problem = std::get_if<std::string>(&read)) return std::move(*problem);
   auto& file = std::get<git::FileAtRevision>(read);
-  return DiffOperand{.name = word, .place = std::move(file.place), .file = {}, .bytes = std::move(file.bytes)};
+  return DiffOperand{
+      .name = system::generic_name(word), .place = std::move(file.place), .file = {}, .bytes = std::move(file.bytes)};
 }
 
 static DiffOperand diff_operand(const git::DiffedVersion& version) {

@@ -141,7 +141,7 @@ std::optional<DiffOperands> read_operands(const DiffCommandOptions& options) {
     const std::string& word = i == 0 ? options.old_file : options.new_file;
     auto read = diff_operand(word, options.reader_language());
     if (const auto* const problem = std::get_if<std::string>(&read)) {
-      complain(fmt::format("{}: {}", word, *problem));
+      complain(fmt::format("{}: {}", system::generic_name(word), *problem));
       return std::nullopt;
     }
     operands[i] = std::move(std::get<DiffOperand>(read));

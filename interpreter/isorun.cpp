@@ -84,7 +84,7 @@ struct RunCommandOptions {
   bool makes_program() const { return restart_at || outline || tool || lift; }
   /// The path of the program file for the system.
   std::string program_file() const { return reads_stdin() ? "/dev/stdin" : file; }
-  std::string shown_file() const { return reads_stdin() ? "<stdin>" : file; }
+  std::string shown_file() const { return reads_stdin() ? "<stdin>" : system::generic_name(file); }
 };
 
 void complain(std::string_view what) { command_line::complain("isorun", what); }

@@ -89,6 +89,14 @@ class Windows(unittest.TestCase):
         self.assertEqual(self.codes(windows_path(file)), [(shown, "ISO028")])
         self.assertEqual(self.codes(windows_path(file.parent)), [(shown, "ISO028")])
         self.assertEqual(self.codes(r"parts\a.iso", cwd=self.folder), [("parts/a.iso", "ISO028")])
+        named = ("--stdin-filename", r"C:\parts\a.iso", "-")
+        self.assertEqual(self.codes(*named, input=WRONG.encode()), [("C:/parts/a.iso", "ISO028")])
+        self.assertIn(b"--- C:/parts/a.iso", run("isofmt", "--no-config", "--diff", *named, input=UNTIDY.encode()).stdout)
+        self.assertIn(b"parts/a.iso:4: ", run("isorun", "--no-config", r"parts\a.iso", cwd=self.folder).stderr)
+        self.write("parts/b.iso", WRONG.replace("X10", "X11"))
+        both = run("isodiff", "--no-config", "--format", "markdown", r"parts\a.iso", r"parts\b.iso", cwd=self.folder)
+        self.assertIn(b"parts/a.iso -> parts/b.iso", both.stdout)
+        self.assertIn(b"parts/none.iso: ", run("isodiff", r"parts\a.iso", r"parts\none.iso", cwd=self.folder).stderr)
 
     def test_an_absolute_path_is_no_option(self):
         report = self.folder / "report.json"
