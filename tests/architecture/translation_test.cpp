@@ -45,6 +45,7 @@ const std::vector<Translation> kPages = {{"docs/README.md", "docs/it/README.md"}
                                          {"docs/vscode.md", "docs/it/vscode.md"},
                                          {"docs/editors.md", "docs/it/editor.md"},
                                          {"docs/packages.md", "docs/it/installare.md"},
+                                         {"docs/platforms.md", "docs/it/piattaforme.md"},
                                          {"docs/verification.md", "docs/it/verifica.md"},
                                          {"vscode-extension/README.md", "docs/it/estensione.md"}};
 
