@@ -161,6 +161,26 @@ class MeshSearch {
     return box.lowest(n) - body_.core.highest(n) - body_.rounding - kRounding;
   }
 
+  /// The gap before the triangle's plane, or along the direction in which the nearest points so far are apart: most
+  /// triangles are farther away than those.
+  double plane_bound(const Triangle& triangle, const Clearance& nearest) const {
+    double widest = -kUnbounded;
+    const geometry::Vec3 area = triangle.area_vector();
+    if (const double length = area.norm(); length > 0) {
+      const geometry::Vec3 normal = area / length;
+      widest = std::max(body_.core.lowest(normal) - triangle.highest(normal),
+                        triangle.lowest(normal) - body_.core.highest(normal));
+    }
+    if (nearest.upper > 0 && nearest.upper < kUnbounded) {
+      const geometry::Vec3 apart = nearest.on_obstacle - nearest.on_body;
+      if (const double length = apart.norm(); length > 0) {
+        const geometry::Vec3 n = apart / length;
+        widest = std::max(widest, triangle.lowest(n) - body_.core.highest(n));
+      }
+    }
+    return widest - body_.rounding - kRounding;
+  }
+
   /// Nothing in a box overlaps the shape more than the box does.
   double overlap_bound(const BoundingBox& extent) const {
     const Cuboid box{extent.min(), extent.max()};
@@ -177,6 +197,10 @@ class MeshSearch {
     for (const Triangle& triangle : mesh_.triangles().subspan(node.first, node.count)) {
       const double needed = limit(nearest);
       if (needed < 0 && overlap_bound(triangle.bounds()) >= needed) continue;
+      if (const double bound = plane_bound(triangle, nearest); needed > 0 && bound >= needed) {
+        nearest.lower = std::min(nearest.lower, bound);
+        continue;
+      }
       include(nearest, enough < 0 ? between(body_, triangle, needed) : gap(body_, triangle, needed));
     }
   }

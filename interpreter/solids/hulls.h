@@ -80,18 +80,21 @@ class SweptShape {
   double lowest(const geometry::Vec3& n) const { return core_.lowest(n) + std::min(0.0, n.dot(way_)); }
   geometry::Vec3 highest_point(const geometry::Vec3& n) const { return core_.highest_point(n) + ahead(n); }
   geometry::Vec3 lowest_point(const geometry::Vec3& n) const { return core_.lowest_point(n) + ahead(-n); }
-  /// A point that is near to `point`: along the way, the distance has one minimum.
+  /// A point that is near to `point`: the nearest one of the shape where it is, and the nearest place on the way for
+  /// that, in turn.
   geometry::Vec3 nearest(const geometry::Vec3& point) const {
-    constexpr int kRounds = 12;
-    const auto at = [&](double part) -> geometry::Vec3 { return core_.nearest(point - part * way_) + part * way_; };
-    double from = 0;
-    double to = 1;
-    for (int i = 0; i < kRounds; ++i) {
-      const double third = (to - from) / 3;
-      const bool is_left = (at(from + third) - point).squaredNorm() < (at(to - third) - point).squaredNorm();
-      (is_left ? to : from) = is_left ? to - third : from + third;
+    constexpr int kRounds = 3;
+    const double square = way_.squaredNorm();
+    const auto along = [&](const geometry::Vec3& from) {
+      return square > 0 ? std::clamp((point - from).dot(way_) / square, 0.0, 1.0) : 0.0;
+    };
+    double part = along(core_.middle());
+    geometry::Vec3 on_core = core_.nearest(point - part * way_);
+    for (int i = 1; i < kRounds; ++i) {
+      part = along(on_core);
+      on_core = core_.nearest(point - part * way_);
     }
-    return at((from + to) / 2);
+    return on_core + part * way_;
   }
   geometry::Vec3 middle() const { return core_.middle() + way_ / 2; }
   SweptShape moved(const geometry::Vec3& by) const { return {core_.moved(by), way_}; }

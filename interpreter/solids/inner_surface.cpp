@@ -221,25 +221,41 @@ class InnerFaces {
     std::array<FaceEdge, 3> edges;
     for (std::uint32_t i = 0; i < 3; ++i) edges[i] = edge_of(face, i);
     ends_.clear();
-    for (const FaceEdge& edge : edges)
-      if (edge.is_outer()) ends_.push_back(end_at(edge));
     add_ends_at_corners(face);
-    const auto& [a, b, c] = faces_[face].corners;
-    add_ended({a + shift, b + shift, c + shift}, normal);
-    const auto outwards = [&](const FaceEdge& edge) -> Vec3 {
-      return -depth_ * std::tan(edge.half_step()) * edge.inwards;
-    };
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const FaceEdge& edge = edges[i];
-      if (!edge.is_inner()) continue;
-      const Vec3 from = edge.from + shift;
-      const Vec3 to = edge.to + shift;
-      const Vec3 by = outwards(edge);
-      add_ended({from, from + by, to + by, to}, normal);
-      if (const FaceEdge& next = edges[(i + 1) % 3]; next.is_inner())
-        add_ended({to, to + by, to + outwards(next)}, normal);
-      if (face < neighbors_.beside(face, i)) add_facets(edge, normal);
+    ConvexPolygon polygon;
+    for (std::uint32_t i = 0; i < 3; ++i) polygon.push_back(faces_[face].corners[i] + shift + corner_shift(edges, i));
+    // Ends that have passed one another leave nothing.
+    if ((polygon[1] - polygon[0]).cross(polygon[2] - polygon[0]).dot(normal) > 0) add_ended(std::move(polygon), normal);
+    for (std::uint32_t i = 0; i < 3; ++i)
+      if (edges[i].is_inner() && face < neighbors_.beside(face, i)) add_facets(edges[i], normal);
+  }
+
+  /// How far inwards the shifted face ends at an edge, mm; negative at an inner edge.
+  double end_of(const FaceEdge& edge) const {
+    if (edge.is_outer()) return inset_of(edge);
+    return edge.is_inner() ? -depth_ * std::tan(edge.half_step()) : 0.0;
+  }
+
+  /// From a corner of a face to where the ends at both edges meet. At a sharp corner, the point of a longer face is cut
+  /// off, not as far as its edges are shifted.
+  Vec3 corner_shift(const std::array<FaceEdge, 3>& edges, std::uint32_t corner) {
+    constexpr double kLongest = 3;
+    const FaceEdge& before = edges[(corner + 2) % 3];
+    const FaceEdge& after = edges[corner];
+    const double first = end_of(before);
+    const double second = end_of(after);
+    const double cosine = before.inwards.dot(after.inwards);
+    const double square = 1 - cosine * cosine;
+    if (!(square > 1e-12)) return std::min(first, 0.0) * before.inwards + std::min(second, 0.0) * after.inwards;
+    const Vec3 shift =
+        ((first - cosine * second) * before.inwards + (second - cosine * first) * after.inwards) / square;
+    const double most = kLongest * std::max(std::abs(first), std::abs(second));
+    const Vec3 middle = after.along - before.along;
+    if (shift.norm() > most && middle.norm() > 0 && shift.dot(middle) < 0) {
+      const Vec3 inwards = middle.normalized();
+      ends_.push_back({inwards, inwards.dot(after.from) - most});
     }
+    return shift;
   }
 
   /// Those between the faces at an inner edge.

@@ -35,6 +35,9 @@ constexpr double kResolution = 0.1;  ///< Of the steps along a contact, mm.
 /// the contact distance is one contact.
 constexpr double kApart = 1.5 * kContactDistance;
 
+/// Differences of both bounds of a distance that is known as well as it can be, mm.
+constexpr double kTight = 20 * solids::kRounding;
+
 /// A stretch, and where the machine is on it.
 class StretchPlaces {
  public:
@@ -70,6 +73,14 @@ class StretchPlaces {
     return is_straight_shift() || shifts_along_path(part, obstacle);
   }
   const kinematics::Path& path() const { return stretch_.path; }
+
+  /// Whether it begins where another stretch ends, but for rounding.
+  bool follows(const motion::Stretch& other) const {
+    constexpr double kSame = 1e-9;  // mm, degrees
+    const kinematics::Coordinates joints = other.at(kinematics_, other.start + other.duration).joints;
+    return stretch_.path.tool_length == other.path.tool_length &&
+           (joints_at(begin_) - joints).cwiseAbs().maxCoeff() < kSame;
+  }
 
   /// Whether proven bounds hold where the stretch leads.
   bool is_in_reach() {
@@ -167,6 +178,9 @@ struct PairCourse {
   /// The travel of its group up to which it is proven to stay beyond its limit.
   double free_until = -std::numeric_limits<double>::infinity();
   std::optional<SeparatingPlane> plane;  ///< That has been between both last.
+  /// What was found at the end of a stretch, which the next one begins with, and the number of that stretch.
+  std::optional<Clearance> at_end;
+  std::size_t ended = 0;
 };
 
 /// Pairs whose speeds have the same kind of bound.
@@ -206,6 +220,7 @@ class Examination {
   void take(const motion::Stretch& stretch, std::size_t index) {
     StretchPlaces places(stretch, kinematics_);
     index_ = index;
+    follows_.reset();
     if (!places.is_in_reach()) {
       undecided();
       for (PairGroup& group : groups_) group.forget();
@@ -225,6 +240,7 @@ class Examination {
     std::sort(result_.encounters.begin() + static_cast<std::ptrdiff_t>(sorted_), result_.encounters.end(),
               [](const Encounter& a, const Encounter& b) { return a.pair < b.pair; });
     sorted_ = result_.encounters.size();
+    previous_ = &stretch;
   }
 
   Examined result() { return std::move(result_); }
@@ -245,7 +261,10 @@ class Examination {
     };
     if (shifts && is_beyond_plane()) return;
     constexpr double kAhead = 8;  // Stretches that one look shall do for.
-    const Clearance begin = distance(places.begin(), pair.limit + kAhead * travel);
+    const bool is_known =
+        course.at_end && course.ended + 1 == index_ && follows_previous(places) &&
+        (course.at_end->upper - course.at_end->lower < kTight || course.at_end->lower >= pair.limit + travel);
+    const Clearance begin = is_known ? *course.at_end : distance(places.begin(), pair.limit + kAhead * travel);
     if (begin.lower >= pair.limit + travel) {
       course.free_until = before + begin.lower - pair.limit;
       return;
@@ -255,8 +274,10 @@ class Examination {
       if (is_beyond_plane()) return;
     }
     const Clearance end = distance(places.end(), pair.limit + kAhead * travel);
+    course.at_end = end;
+    course.ended = index_;
     std::optional<Encounter> encounter;
-    if (!is_nearest_at_an_end(places, pair, begin, end)) encounter = search(places, course, rate, begin);
+    if (!is_nearest_at_an_end(places, pair, travel, begin, end)) encounter = search(places, course, rate, begin);
     // A motion that stops near an obstacle comes nearest to it there.
     if (pair.reports_near) take_ends(places, course, begin, end, encounter);
     // Where both rest in contact, each stretch belongs to it.
@@ -271,6 +292,11 @@ class Examination {
     course.free_until = margin > 0 ? after + margin : -std::numeric_limits<double>::infinity();
   }
 
+  bool follows_previous(const StretchPlaces& places) {
+    if (!follows_) follows_ = previous_ && places.follows(*previous_);
+    return *follows_;
+  }
+
   Clearance distance_of(StretchPlaces& places, const BodyPair& pair, double s, double sufficient) const {
     const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
     const MovingPart& part = bodies_.parts[pair.part];
@@ -283,9 +309,12 @@ class Examination {
 
   /// Whether a tool that shifts along a straight line touches nothing on its way, and comes nowhere nearer than at an
   /// end, within the tolerance of near misses: all that it covers is one convex body for each of its pieces.
-  bool is_nearest_at_an_end(StretchPlaces& places, const BodyPair& pair, const Clearance& begin,
+  bool is_nearest_at_an_end(StretchPlaces& places, const BodyPair& pair, double travel, const Clearance& begin,
                             const Clearance& end) const {
     const double nearest = std::min(begin.lower, end.lower);
+    // A few steps take less time.
+    constexpr double kFewSteps = 8;
+    if (travel < kFewSteps * (pair.reports_near && nearest < pair.limit ? kNearTolerance : nearest)) return false;
     if (!pair.revolved || pair.allowed > 0 || !places.is_straight_shift() || !(nearest > kContactDistance))
       return false;
     const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
@@ -352,6 +381,9 @@ class Examination {
     const BodyPair& pair = *course.pair;
     const auto distance = [&](double s, double sufficient) { return distance_of(places, pair, s, sufficient); };
     const auto speed = [rate](double) { return rate; };
+    const auto known_at_start = [&](double s, double sufficient) {
+      return s == places.begin() ? begin : distance(s, sufficient);
+    };
     solids::AdvanceOptions options{.contact = kContactDistance,
                                    .clearance = pair.reports_near ? pair.limit : 0,
                                    .tolerance = kNearTolerance,
@@ -359,7 +391,7 @@ class Examination {
     Encounter encounter{.stretch = index_, .pair = course.index, .distance = std::numeric_limits<double>::infinity()};
     double from = places.begin();
     for (;;) {
-      const solids::AdvanceResult found = solids::first_contact(from, places.end(), distance, speed, options);
+      const solids::AdvanceResult found = solids::first_contact(from, places.end(), known_at_start, speed, options);
       if (found.verdict == solids::AdvanceResult::Verdict::Contact) {
         const solids::ContactSpan span = follow(places, found.s, distance, speed, rate);
         // From less than kApart to a touch so soon, both have not been apart.
@@ -511,6 +543,8 @@ class Examination {
   std::vector<PairGroup> groups_;
   Examined result_;
   std::size_t index_ = 0;
+  const motion::Stretch* previous_ = nullptr;
+  std::optional<bool> follows_;  ///< Whether the present stretch begins where the previous one ends; empty: not asked.
   std::size_t sorted_ = 0;
   double last_ = 0;  ///< Parameter up to which the last touch has lasted.
 };
