@@ -203,9 +203,21 @@ static Example example_of_fine_stock(Cause cause) {
   return {};
 }
 
+/// A setup with a mistake is no part of a program.
+static Example example_of_mistaken_setup(Cause cause) {
+  const std::string program = "M06 T101001\nM02\n";
+  verification::VerifiedRun run = selection::verified_on_paths(program, {}, simulation::TimedMachine(), nullptr);
+  verification::add_gap(run, {.gap = verification::Gap::SetupMistaken}, program);
+  for (const simulation::RunFinding& found : run.outcome.findings)
+    if (found.finding.has(cause)) return {.line = "M06 T101001", .finding = found.finding};
+  return {};
+}
+
 static std::optional<Example> example_of_run(Cause cause) {
   if (cause.id == "not-verified"_diag && cause.number == "not-verified/resolution-too-fine"_cause.number)
     return example_of_fine_stock(cause);
+  if (cause.id == "not-verified"_diag && cause.number == "not-verified/setup-mistaken"_cause.number)
+    return example_of_mistaken_setup(cause);
   const std::string program = program_of(cause);
   syntax::LineFinder lines(program);
   for (const simulation::RunFinding& found : example_run(program, cause.id))

@@ -82,14 +82,27 @@ std::optional<DescribedSetup> Scenes::read_setup_file(const fs::path& file, cons
   return result.mistakes.empty() ? std::optional(std::move(result.setup)) : std::nullopt;
 }
 
+/// The index of the last entry of `setups` for a program.
+std::optional<std::size_t> Scenes::entry_of(const Configuration& configuration, const fs::path& program) {
+  std::optional<std::size_t> last;
+  if (!program.has_filename() || configuration.setups.empty()) return last;
+  const fs::path real = real_path(program.parent_path()) / program.filename();
+  for (std::size_t i = 0; i < configuration.setups.size(); ++i)
+    if (configuration.setups[i].patterns.match(real)) last = i;
+  return last;
+}
+
+bool Scenes::is_mistaken(const Configuration& configuration, const fs::path& program) {
+  if (of(configuration, program)) return false;
+  const std::lock_guard lock(mutex_);
+  std::error_code error;
+  if (program.has_filename() && fs::exists(fs::symlink_status(setup_file(program), error))) return true;
+  return entry_of(configuration, program) || !configuration.machine.bodies.empty();
+}
+
 /// The scene of the last entry of `setups` for the program, or of the machine alone.
 Scenes::ScenePointer Scenes::scene_of_entry(const Configuration& configuration, const fs::path& program) {
-  std::optional<std::size_t> last;
-  if (program.has_filename() && !configuration.setups.empty()) {
-    const fs::path real = real_path(program.parent_path()) / program.filename();
-    for (std::size_t i = 0; i < configuration.setups.size(); ++i)
-      if (configuration.setups[i].patterns.match(real)) last = i;
-  }
+  const std::optional<std::size_t> last = entry_of(configuration, program);
   if (!last && configuration.machine.bodies.empty()) return nullptr;
   const auto [known, is_new] = entries_.try_emplace({&configuration, last});
   if (is_new && last) {

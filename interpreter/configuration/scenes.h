@@ -49,6 +49,9 @@ class Scenes {
   std::shared_ptr<const verification::Scene> of(const Configuration& configuration,
                                                 const std::filesystem::path& program);
 
+  /// Whether a program has no scene because of a mistake in what describes it.
+  bool is_mistaken(const Configuration& configuration, const std::filesystem::path& program);
+
   /// Mistakes in the files read so far, one line each: `door.setup.json:3:12: error: fixtures[0].mesh: ...`.
   std::vector<std::string> mistakes(dialect::Language language) const;
   /// The same as data.
@@ -66,6 +69,7 @@ class Scenes {
   ScenePointer own_scene(const Configuration& configuration, const std::filesystem::path& file);
   std::optional<DescribedSetup> read_setup_file(const std::filesystem::path& file, const std::filesystem::path& folder);
   ScenePointer scene_of_entry(const Configuration& configuration, const std::filesystem::path& program);
+  static std::optional<std::size_t> entry_of(const Configuration& configuration, const std::filesystem::path& program);
   ScenePointer make(const Configuration& configuration, const std::optional<LocatedSetup>& setup);
 
   const dialect::Language language_;

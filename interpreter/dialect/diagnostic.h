@@ -45,7 +45,7 @@ inline constexpr int kMaxArguments = 6;
 inline constexpr int kMaxGivenNames = 2;
 
 /// Maximum number of causes of one code that have a message of their own, beside the usual one.
-inline constexpr int kMaxCauses = 6;
+inline constexpr int kMaxCauses = 7;
 
 /// A cause of a finding with a message of its own, where one text could not say what to write.
 struct CauseDef {

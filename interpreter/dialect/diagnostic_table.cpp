@@ -2509,6 +2509,11 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                        .it = "il materiale non è verificato: con la risoluzione richiesta occupa più "
                              "memoria di quella prevista; con {spacing} mm ci sta"},
            .wrong = ""},
+          {.cause = "setup-mistaken",
+           .message = {.en = "what this program would hit is not verified: the description of its setup has a mistake",
+                       .it = "che cosa urterebbe questo programma non è verificato: la descrizione del suo "
+                             "attrezzaggio ha un errore"},
+           .wrong = ""},
           {.cause = "other-paths",
            .message = {.en = "where this jump leads with other values of VGPL is not verified (paths that were "
                              "run: {paths})",

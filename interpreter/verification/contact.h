@@ -55,6 +55,7 @@ enum class Gap : std::uint8_t {
   ToolWithoutShape,   ///< The mounted tool has no shape: only the nose and the machine have been compared.
   ToolWithoutLength,  ///< Its length is not known, so that nothing of it is at its place.
   ResolutionTooFine,  ///< The stock would take more memory than there is for it: no material has been removed.
+  SetupMistaken,      ///< What describes the setup has a mistake: the run was made without what surrounds the machine.
   Undecided,          ///< A motion for which neither a contact nor its absence could be proven.
   OtherPaths,         ///< A jump that other values of VGPL decide otherwise.
   OtherRegisters,     ///< A jump that other values of a register decide otherwise, which the program has not assigned.

@@ -50,6 +50,8 @@ static std::string in_words(const Unverified& gap, Language language) {
       return dialect::format(Text{"the material, which a resolution of {} mm would fit",
                                   "il materiale, per cui ci sta una risoluzione di {} mm"},
                              language, gap.spacing);
+    case Gap::SetupMistaken:
+      return dialect::format(Text{"what the setup describes", "ciò che l'attrezzaggio descrive"}, language);
     case Gap::Undecided:
       break;
   }

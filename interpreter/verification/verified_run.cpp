@@ -93,6 +93,8 @@ static dialect::Cause cause_of(Gap gap) {
       return "not-verified/other-registers"_cause;
     case Gap::ResolutionTooFine:
       return "not-verified/resolution-too-fine"_cause;
+    case Gap::SetupMistaken:
+      return "not-verified/setup-mistaken"_cause;
     case Gap::Undecided:
       break;
   }
@@ -156,6 +158,15 @@ static void add_findings(simulation::RunOutcome& outcome, const std::vector<Cont
   const auto is_same = [&](const RunFinding& a, const RunFinding& b) { return a.mistake >= 0 && place(a) == place(b); };
   outcome.findings.erase(std::unique(outcome.findings.begin(), outcome.findings.end(), is_same),
                          outcome.findings.end());
+}
+
+void add_gap(VerifiedRun& run, const Unverified& gap, std::string_view text) {
+  RunFinding found{.line = gap.line, .finding = finding_of(gap)};
+  found.finding.span = simulation::motion_span(syntax::ParsedLine(syntax::LineFinder(text).line(gap.line)).tree());
+  std::vector<RunFinding>& findings = run.outcome.findings;
+  const auto is_before = [](const RunFinding& a, const RunFinding& b) { return a.line < b.line; };
+  findings.insert(std::lower_bound(findings.begin(), findings.end(), found, is_before), found);
+  if (run.certificate) run.certificate->gaps.push_back(gap);
 }
 
 VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier, std::string_view text,

@@ -24,6 +24,9 @@ syntax::Finding finding_of(const Contact& contact);
 /// The finding that tells what could not be verified, without a span.
 syntax::Finding finding_of(const Unverified& gap);
 
+/// Adds what could not be verified, and its finding.
+void add_gap(VerifiedRun& run, const Unverified& gap, std::string_view text);
+
 /// Ends a verifier, and adds what it has found to the outcome of the run that it has heard. `text` is that of the
 /// program.
 VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier, std::string_view text,

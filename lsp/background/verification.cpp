@@ -76,9 +76,11 @@ void Job::run(const VerificationSubject& subject) const {
 /// Null if the run was cancelled, or there is not enough memory for it.
 std::shared_ptr<simulation::RunOutcome> Job::outcome_of(const VerificationSubject& subject) const {
   try {
-    verification::VerifiedRun verified =
-        options.run(subject.text, *subject.settings.program, subject.settings.scene().get(),
-                    {.stop = [this] { return cancelled->load(); }});
+    const auto scene = subject.settings.scene();
+    verification::VerifiedRun verified = options.run(subject.text, *subject.settings.program, scene.get(),
+                                                     {.stop = [this] { return cancelled->load(); }});
+    if (!scene && subject.settings.has_mistaken_scene())
+      verification::add_gap(verified, {.gap = verification::Gap::SetupMistaken}, subject.text);
     if (!cancelled->load()) return std::make_shared<simulation::RunOutcome>(std::move(verified.outcome));
   } catch (const std::exception&) {
     return nullptr;

@@ -20,6 +20,8 @@ struct DocumentSettings {
 
   /// What surrounds the program; null if nothing is known of it. May read files.
   std::shared_ptr<const verification::Scene> scene() const { return scenes->of(*configuration, file); }
+  /// Whether that is because what describes it has a mistake.
+  bool has_mistaken_scene() const { return scenes->is_mistaken(*configuration, file); }
 };
 
 /// The settings of programs, from the configuration files. Reads each file once, until forget().

@@ -129,6 +129,20 @@ TEST_F(VerificationTest, KnowsTheSetupBesideTheProgram) {
   EXPECT_THAT(found, ElementsAre("E152@2"));
 }
 
+/// With a mistake in its setup, a program is not shown as if it had been compared with it.
+TEST_F(VerificationTest, SaysWhereTheSetupHasAMistake) {
+  start({}, {{"verify", "onSave"}});
+  open();
+  EXPECT_THAT(pushed(), IsEmpty());
+  runs_.wait_for_starts(1);
+  folder_.write("part.setup.json", R"({"fixtures": [{"name": "clamp", "box": [[0, 0, 0], [1, 1]]}]})");
+  const std::string setup = uri_.substr(0, uri_.size() - 4) + ".setup.json";
+  session_.notify("workspace/didChangeWatchedFiles", {{"changes", Json::array({{{"uri", setup}, {"type", 1}}})}});
+  std::vector<std::string> found;
+  for (int i = 0; i < 4 && found.size() < 2; ++i) found = pushed();
+  EXPECT_THAT(found, ElementsAre("W162@0", "E160@2"));
+}
+
 /// What is wrong with a mesh is known once a run has read it. It is reported in the file that names it, open or not.
 TEST_F(VerificationTest, ReportsMeshesThatCannotBeHad) {
   folder_.write("isocnc.json", R"({"setups": [{"paths": ["other.iso"]}]})");
