@@ -39,7 +39,7 @@ Clearance body_in(const RevolvedBody& body, const AxisPlacement& at, const Shape
   if (gaps.empty()) return touching;
   Overlap out;
   for (bool grows = true; grows;) {
-    out = overlap(detail::PieceHull(overlapping), shape);
+    out = overlap(detail::PieceHull(overlapping), shape, true);
     const Vec3 by = -(out.depth + kApart) * out.direction;
     const auto stays_out = std::partition(others.begin(), others.end(), [&](const PieceInPlace& piece) {
       return detail::gap(detail::rounded(piece.core.moved(by), piece.rounding), shape, 0).upper > 0;

@@ -328,7 +328,8 @@ class NearFaces {
 
   Clearance clearance() {
     look();
-    detail::DeepPoints(inner_.whole(), deepest_).take(body_, at_);
+    if (!is_deep()) detail::DeepPoints(inner_.whole(), deepest_).take(body_, at_);
+    go_deeper();
     const double beyond = deepest_.depth() - inner_.depth();
     if (beyond > -kRounding) {
       deepest_.lower = deepest_.upper = -std::max(beyond, 0.0);
@@ -342,6 +343,33 @@ class NearFaces {
  private:
   static constexpr int kMaxFaces = 64;
 
+  /// The deepest point of a body is the lowest one before the surface that is nearest to it.
+  void go_deeper() {
+    constexpr int kRounds = 4;
+    for (int i = 0; i < kRounds; ++i) {
+      const double depth = deepest_.depth();
+      const Vec3 outwards = deepest_.on_obstacle - deepest_.on_body;
+      if (!(depth > 0 && outwards.norm() > 0)) return;
+      detail::DeepPoints(inner_.whole(), deepest_).take_point(lowest_point(outwards.normalized()), 0);
+      if (!(deepest_.depth() > depth)) return;
+    }
+  }
+
+  /// Of the body, in a direction.
+  Vec3 lowest_point(const Vec3& normal) const {
+    Vec3 lowest = Vec3::Zero();
+    double height = kExact;
+    for (const BodyPiece& piece : body_.pieces()) {
+      const Vec3 point = PlacedFrustum(piece.core, at_).lowest_point(normal) - piece.rounding * normal;
+      if (!(normal.dot(point) < height)) continue;
+      height = normal.dot(point);
+      lowest = point;
+    }
+    return lowest;
+  }
+
+  /// Whether a point of the body is as deep as a face should be.
+  bool is_deep() const { return deepest_.depth() > inner_.depth() - kRounding; }
   bool is_deep(const Vec3& point) const {
     Clearance found{.lower = 0, .upper = 0};
     detail::DeepPoints(inner_.whole(), found).take_point(point, 0);
@@ -357,7 +385,10 @@ class NearFaces {
       detail::MeshSearch(*inner_.faces(), grown, 0).each_touching([&](const Triangle& face, const Clearance& found) {
         const Vec3 normal = face.area_vector().normalized();
         detail::DeepPoints deep(inner_.whole(), deepest_);
-        deep.take_point(core.lowest_point(normal) - piece.rounding * normal, 0);
+        // No point is farther from the surface than from the face below the surface, and that one from it.
+        const Vec3 lowest = lowest_point(normal);
+        if (inner_.depth() + (face.nearest(lowest) - lowest).norm() > deepest_.depth()) deep.take_point(lowest, 0);
+        if (is_deep()) return --left > 0;
         if (const auto common = common_point(core, piece.rounding, face, found.on_obstacle)) {
           deep.take_point(*common, 0);
         } else if (found.upper + kNear > 0 && is_deep(found.on_obstacle)) {

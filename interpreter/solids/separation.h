@@ -191,9 +191,10 @@ struct Overlap {
 
 /// How far two convex shapes that overlap must be moved apart. It is the shortest along the normals of both shapes,
 /// across an edge of each, and what a descent from the best of these finds. For boxes and triangles it is the shortest
-/// of all; that of round shapes may be shorter, never longer.
+/// of all; that of round shapes may be shorter, never longer. `across_edges`: starts also across each edge, from one
+/// shape's middle to the other, as where a tilted cylinder lies on an edge.
 template <class A, class B>
-Overlap overlap(const A& a, const B& b) {
+Overlap overlap(const A& a, const B& b, bool across_edges = false) {
   Overlap best;
   const auto consider = [&](const geometry::Vec3& n) {
     const double needed = a.highest(n) - b.lowest(n);
@@ -215,9 +216,27 @@ Overlap overlap(const A& a, const B& b) {
   });
   // Moved apart along the best direction so far, the shapes are mostly nearest to each other along a better one.
   constexpr int kRounds = 8;
-  for (int i = 0; i < kRounds; ++i) {
-    const Separation apart = separation(a.moved(-(best.depth + kApart) * best.direction), b, kExactGap);
-    if (apart.overlaps() || !consider(apart.direction)) break;
+  const auto descend = [&](Overlap from) {
+    for (int i = 0; i < kRounds; ++i) {
+      const Separation apart = separation(a.moved(-(from.depth + kApart) * from.direction), b, kExactGap);
+      const double needed = a.highest(apart.direction) - b.lowest(apart.direction);
+      if (apart.overlaps() || !(needed < from.depth)) break;
+      from = {needed, apart.direction};
+    }
+    if (from.depth < best.depth) best = from;
+  };
+  descend(best);
+  if (across_edges) {
+    const geometry::Vec3 between = b.nearest(a.middle()) - a.middle();
+    const geometry::Vec3 middles = b.middle() - a.middle();
+    b.for_each_edge([&](const geometry::Vec3& edge) {
+      for (const geometry::Vec3& way : {between, middles}) {
+        const geometry::Vec3 across = way - way.dot(edge) * edge;
+        if (!(across.norm() > 1e-6)) continue;
+        const geometry::Vec3 n = across.normalized();
+        descend({a.highest(n) - b.lowest(n), n});
+      }
+    });
   }
   best.depth = std::max(best.depth, 0.0);
   return best;

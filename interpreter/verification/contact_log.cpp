@@ -32,6 +32,7 @@ void ContactLog::take_one(const Encounter& encounter, const StretchPlace& at, co
   const Mover mover = mover_of(bodies, pair.part);
   Visit& visit = visits_.emplace_back(Visit{.place = {pair.obstacle, mover}, .reports_near = pair.reports_near});
   visit.encounter = encounter;
+  visit.is_rough = obstacle.body->core && !pair.core && bodies.parts[pair.part].of_spindle == removal::ToolPart::Cutter;
   visit.contact.id = encounter.is_contact() ? contact_with(obstacle.body->role) : "near-miss"_diag;
   visit.contact.tool = tool;
   visit.contact.who = bodies.parts[pair.part].name;
@@ -86,7 +87,9 @@ void ContactLog::settle(std::span<const Visit> visits) {
 void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
   // How near it came before the touch does not matter.
   const bool is_first = !episode.is_open || !episode.has_touched;
-  const bool is_deeper = is_first || touch.touch->distance < episode.contact.distance;
+  const bool is_rough = touch.visit->is_rough;
+  const bool is_deeper =
+      is_first || (is_rough == episode.is_rough ? touch.touch->distance < episode.contact.distance : episode.is_rough);
   Contact& contact = episode.contact;
   if (is_first) {
     contact = touch.visit->contact;
@@ -101,6 +104,7 @@ void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
   }
   episode.is_open = episode.has_touched = true;
   if (!is_deeper) return;
+  episode.is_rough = is_rough;
   contact.who = touch.visit->contact.who;
   contact.distance = touch.touch->distance;
   contact.point = touch.touch->point;

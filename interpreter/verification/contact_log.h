@@ -50,6 +50,7 @@ class ContactLog {
     bool has_touched = false;
     bool reports_near = false;
     bool is_together = false;      ///< Whether a part touches at the end of the last stretch.
+    bool is_rough = false;         ///< Only touches whose depth says little have been taken.
     bool is_apart = false;         ///< Whether all parts are beyond their limits at the end of the last stretch.
     std::size_t last_stretch = 0;  ///< On which the mover came near.
     Contact contact;
@@ -59,7 +60,8 @@ class ContactLog {
   struct Visit {
     ContactPlace place;
     bool reports_near = false;
-    Contact contact;  ///< Without times and lines.
+    bool is_rough = false;  ///< Another pair of both measures how deep a touch is (BodyPair::core).
+    Contact contact;        ///< Without times and lines.
     Encounter encounter;
   };
 
