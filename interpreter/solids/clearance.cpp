@@ -115,13 +115,13 @@ namespace {
 /// A lower bound of the distance of a piece's way from a shape; 0 or less where they meet.
 template <class Core, class Shape>
 double way_bound(const detail::RoundedShape<Core>& piece, const Vec3& way, const Shape& shape, double sufficient) {
-  return detail::gap(detail::rounded(detail::SweptShape(piece.core, way), piece.rounding), shape, sufficient).lower;
+  return detail::gap(detail::rounded(detail::SweptHull(piece.core, way), piece.rounding), shape, sufficient).lower;
 }
 
 template <class Core>
 double way_bound(const detail::RoundedShape<Core>& piece, const Vec3& way, const Mesh& mesh, double sufficient) {
   Clearance nearest;
-  const auto swept = detail::rounded(detail::SweptShape(piece.core, way), piece.rounding);
+  const auto swept = detail::rounded(detail::SweptHull(piece.core, way), piece.rounding);
   detail::MeshSearch(mesh, swept, sufficient).until_touch(nearest);
   return nearest.lower;
 }

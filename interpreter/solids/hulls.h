@@ -72,9 +72,9 @@ class PieceHull {
 
 /// All that a convex shape covers on a straight way.
 template <class Core>
-class SweptShape {
+class SweptHull {
  public:
-  SweptShape(Core core, geometry::Vec3 way) : core_(std::move(core)), way_(std::move(way)) {}
+  SweptHull(Core core, geometry::Vec3 way) : core_(std::move(core)), way_(std::move(way)) {}
 
   double highest(const geometry::Vec3& n) const { return core_.highest(n) + std::max(0.0, n.dot(way_)); }
   double lowest(const geometry::Vec3& n) const { return core_.lowest(n) + std::min(0.0, n.dot(way_)); }
@@ -97,7 +97,7 @@ class SweptShape {
     return on_core + part * way_;
   }
   geometry::Vec3 middle() const { return core_.middle() + way_ / 2; }
-  SweptShape moved(const geometry::Vec3& by) const { return {core_.moved(by), way_}; }
+  SweptHull moved(const geometry::Vec3& by) const { return {core_.moved(by), way_}; }
 
   template <class Use>
   void for_each_normal(const geometry::Vec3& other, Use&& use) const {

@@ -35,9 +35,6 @@ constexpr double kResolution = 0.1;  ///< Of the steps along a contact, mm.
 /// the contact distance is one contact.
 constexpr double kApart = 1.5 * kContactDistance;
 
-/// Differences of both bounds of a distance that is known as well as it can be, mm.
-constexpr double kTight = 20 * solids::kRounding;
-
 /// A stretch, and where the machine is on it.
 class StretchPlaces {
  public:
@@ -73,14 +70,6 @@ class StretchPlaces {
     return is_straight_shift() || shifts_along_path(part, obstacle);
   }
   const kinematics::Path& path() const { return stretch_.path; }
-
-  /// Whether it begins where another stretch ends, but for rounding.
-  bool follows(const motion::Stretch& other) const {
-    constexpr double kSame = 1e-9;  // mm, degrees
-    const kinematics::Coordinates joints = other.at(kinematics_, other.start + other.duration).joints;
-    return stretch_.path.tool_length == other.path.tool_length &&
-           (joints_at(begin_) - joints).cwiseAbs().maxCoeff() < kSame;
-  }
 
   /// Whether proven bounds hold where the stretch leads.
   bool is_in_reach() {
@@ -178,9 +167,6 @@ struct PairCourse {
   /// The travel of its group up to which it is proven to stay beyond its limit.
   double free_until = -std::numeric_limits<double>::infinity();
   std::optional<SeparatingPlane> plane;  ///< That has been between both last.
-  /// What was found at the end of a stretch, which the next one begins with, and the number of that stretch.
-  std::optional<Clearance> at_end;
-  std::size_t ended = 0;
 };
 
 /// Pairs whose speeds have the same kind of bound.
@@ -220,7 +206,6 @@ class Examination {
   void take(const motion::Stretch& stretch, std::size_t index) {
     StretchPlaces places(stretch, kinematics_);
     index_ = index;
-    follows_.reset();
     if (!places.is_in_reach()) {
       undecided();
       for (PairGroup& group : groups_) group.forget();
@@ -240,7 +225,6 @@ class Examination {
     std::sort(result_.encounters.begin() + static_cast<std::ptrdiff_t>(sorted_), result_.encounters.end(),
               [](const Encounter& a, const Encounter& b) { return a.pair < b.pair; });
     sorted_ = result_.encounters.size();
-    previous_ = &stretch;
   }
 
   Examined result() { return std::move(result_); }
@@ -261,10 +245,7 @@ class Examination {
     };
     if (shifts && is_beyond_plane()) return;
     constexpr double kAhead = 8;  // Stretches that one look shall do for.
-    const bool is_known =
-        course.at_end && course.ended + 1 == index_ && follows_previous(places) &&
-        (course.at_end->upper - course.at_end->lower < kTight || course.at_end->lower >= pair.limit + travel);
-    const Clearance begin = is_known ? *course.at_end : distance(places.begin(), pair.limit + kAhead * travel);
+    const Clearance begin = distance(places.begin(), pair.limit + kAhead * travel);
     if (begin.lower >= pair.limit + travel) {
       course.free_until = before + begin.lower - pair.limit;
       return;
@@ -274,8 +255,6 @@ class Examination {
       if (is_beyond_plane()) return;
     }
     const Clearance end = distance(places.end(), pair.limit + kAhead * travel);
-    course.at_end = end;
-    course.ended = index_;
     std::optional<Encounter> encounter;
     if (!is_nearest_at_an_end(places, pair, travel, begin, end)) encounter = search(places, course, rate, begin);
     // A motion that stops near an obstacle comes nearest to it there.
@@ -290,11 +269,6 @@ class Examination {
       result_.encounters.push_back(*std::move(encounter));
     }
     course.free_until = margin > 0 ? after + margin : -std::numeric_limits<double>::infinity();
-  }
-
-  bool follows_previous(const StretchPlaces& places) {
-    if (!follows_) follows_ = previous_ && places.follows(*previous_);
-    return *follows_;
   }
 
   Clearance distance_of(StretchPlaces& places, const BodyPair& pair, double s, double sufficient) const {
@@ -543,8 +517,6 @@ class Examination {
   std::vector<PairGroup> groups_;
   Examined result_;
   std::size_t index_ = 0;
-  const motion::Stretch* previous_ = nullptr;
-  std::optional<bool> follows_;  ///< Whether the present stretch begins where the previous one ends; empty: not asked.
   std::size_t sorted_ = 0;
   double last_ = 0;  ///< Parameter up to which the last touch has lasted.
 };
