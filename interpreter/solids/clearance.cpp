@@ -5,22 +5,17 @@
 #include <vector>
 
 #include "interpreter/solids/convex_clearance.h"
-#include "interpreter/solids/deep_points.h"
 #include "interpreter/solids/hulls.h"
 
 namespace isocnc::solids {
 
 using detail::bounded_by;
 using detail::is_usable;
+using detail::PieceInPlace;
+using detail::placed;
 using geometry::Vec3;
 
 namespace {
-
-using PieceInPlace = detail::RoundedShape<PlacedFrustum>;
-
-PieceInPlace placed(const BodyPiece& piece, const AxisPlacement& at) {
-  return {PlacedFrustum(piece.core, at), piece.rounding};
-}
 
 /// How far a body must be moved to be free of a convex obstacle that it overlaps, and the point of the obstacle that
 /// its deepest piece is at. A piece that would come into the obstacle on the way counts as well. `touching` is the

@@ -14,25 +14,25 @@ namespace isocnc::solids::detail {
 /// The convex hull of pieces of a body of revolution.
 class PieceHull {
  public:
-  using RoundedPiece = RoundedShape<PlacedFrustum>;
-
   /// At least one piece, all about one axis.
-  explicit PieceHull(std::vector<RoundedPiece> pieces) : pieces_(std::move(pieces)) {}
+  explicit PieceHull(std::vector<PieceInPlace> pieces) : pieces_(std::move(pieces)) {}
+
+  const std::vector<PieceInPlace>& pieces() const { return pieces_; }
 
   double highest(const geometry::Vec3& n) const {
-    const RoundedPiece& piece = highest_piece(n);
+    const PieceInPlace& piece = highest_piece(n);
     return piece.core.highest(n) + piece.rounding;
   }
   double lowest(const geometry::Vec3& n) const { return -highest(-n); }
   geometry::Vec3 highest_point(const geometry::Vec3& n) const {
-    const RoundedPiece& piece = highest_piece(n);
+    const PieceInPlace& piece = highest_piece(n);
     return piece.core.highest_point(n) + piece.rounding * n;
   }
   geometry::Vec3 lowest_point(const geometry::Vec3& n) const { return highest_point(-n); }
   /// The nearest point of the pieces: of the hull, another one may be nearer.
   geometry::Vec3 nearest(const geometry::Vec3& point) const {
     geometry::Vec3 best = nearest_of(pieces_.front(), point);
-    for (const RoundedPiece& piece : pieces_) {
+    for (const PieceInPlace& piece : pieces_) {
       const geometry::Vec3 found = nearest_of(piece, point);
       if ((found - point).squaredNorm() < (best - point).squaredNorm()) best = found;
     }
@@ -41,13 +41,13 @@ class PieceHull {
   geometry::Vec3 middle() const { return pieces_.front().core.middle(); }
   PieceHull moved(const geometry::Vec3& by) const {
     PieceHull copy = *this;
-    for (RoundedPiece& piece : copy.pieces_) piece.core = piece.core.moved(by);
+    for (PieceInPlace& piece : copy.pieces_) piece.core = piece.core.moved(by);
     return copy;
   }
 
   template <class Use>
   void for_each_normal(const geometry::Vec3& other, Use&& use) const {
-    for (const RoundedPiece& piece : pieces_) piece.core.for_each_normal(other, use);
+    for (const PieceInPlace& piece : pieces_) piece.core.for_each_normal(other, use);
   }
   template <class Use>
   void for_each_edge(Use&& use) const {
@@ -55,19 +55,19 @@ class PieceHull {
   }
 
  private:
-  const RoundedPiece& highest_piece(const geometry::Vec3& n) const {
-    const auto height = [&](const RoundedPiece& piece) { return piece.core.highest(n) + piece.rounding; };
+  const PieceInPlace& highest_piece(const geometry::Vec3& n) const {
+    const auto height = [&](const PieceInPlace& piece) { return piece.core.highest(n) + piece.rounding; };
     return *std::max_element(pieces_.begin(), pieces_.end(),
-                             [&](const RoundedPiece& a, const RoundedPiece& b) { return height(a) < height(b); });
+                             [&](const PieceInPlace& a, const PieceInPlace& b) { return height(a) < height(b); });
   }
-  static geometry::Vec3 nearest_of(const RoundedPiece& piece, const geometry::Vec3& point) {
+  static geometry::Vec3 nearest_of(const PieceInPlace& piece, const geometry::Vec3& point) {
     const geometry::Vec3 on_core = piece.core.nearest(point);
     const geometry::Vec3 outwards = point - on_core;
     const double distance = outwards.norm();
     return distance <= piece.rounding ? point : geometry::Vec3(on_core + (piece.rounding / distance) * outwards);
   }
 
-  std::vector<RoundedPiece> pieces_;
+  std::vector<PieceInPlace> pieces_;
 };
 
 /// All that a convex shape covers on a straight way.

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "interpreter/solids/convex_clearance.h"
-#include "interpreter/solids/deep_points.h"
+#include "interpreter/solids/hulls.h"
+#include "interpreter/solids/mesh_edges.h"
 
 namespace isocnc::solids {
 
@@ -27,18 +27,9 @@ class EdgeNeighbors {
  public:
   explicit EdgeNeighbors(std::span<const Triangle> triangles)
       : corners_(corner_numbers(triangles)), beside_(triangles.size(), {kNoFace, kNoFace, kNoFace}) {
-    std::vector<SharedEdge> edges;
-    for (std::uint32_t i = 0; i < corners_.size(); ++i) {
-      const std::uint32_t from = corners_[i];
-      const std::uint32_t to = corners_[i % 3 == 2 ? i - 2 : i + 1];
-      if (from != to) edges.push_back({std::min(from, to), std::max(from, to), i, from < to});
-    }
-    std::sort(edges.begin(), edges.end(), [](const SharedEdge& a, const SharedEdge& b) {
-      return std::tuple(a.low, a.high, a.index) < std::tuple(b.low, b.high, b.index);
-    });
+    std::vector<detail::MeshEdge> edges = detail::sorted_edges(corners_);
     for (std::size_t i = 0; i < edges.size();) {
-      std::size_t end = i;
-      while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
+      const std::size_t end = detail::end_of_same(edges, i);
       pair(std::span(edges).subspan(i, end - i));
       i = end;
     }
@@ -50,19 +41,13 @@ class EdgeNeighbors {
   std::uint32_t corner(std::uint32_t face, std::uint32_t index) const { return corners_[3 * face + index]; }
 
  private:
-  struct SharedEdge {
-    std::uint32_t low;
-    std::uint32_t high;
-    std::uint32_t index;  ///< 3 times that of the face, and that of the edge.
-    bool runs_up;
-  };
-
   /// Each edge with one that runs the other way; in a closed mesh there is one.
-  void pair(std::span<SharedEdge> edges) {
-    const auto downs = std::stable_partition(edges.begin(), edges.end(), [](const SharedEdge& e) { return e.runs_up; });
+  void pair(std::span<detail::MeshEdge> edges) {
+    const auto downs =
+        std::stable_partition(edges.begin(), edges.end(), [](const detail::MeshEdge& e) { return e.runs_up; });
     for (auto up = edges.begin(), down = downs; up != downs && down != edges.end(); ++up, ++down) {
-      beside_[up->index / 3][up->index % 3] = down->index / 3;
-      beside_[down->index / 3][down->index % 3] = up->index / 3;
+      beside_[up->start / 3][up->start % 3] = down->start / 3;
+      beside_[down->start / 3][down->start % 3] = up->start / 3;
     }
   }
 
@@ -320,11 +305,17 @@ std::optional<Vec3> common_point(const Core& core, double within, const Triangle
   return {};
 }
 
+std::vector<detail::PieceInPlace> pieces_of(const RevolvedBody& body, const AxisPlacement& at) {
+  std::vector<detail::PieceInPlace> pieces;
+  for (const BodyPiece& piece : body.pieces()) pieces.push_back(detail::placed(piece, at));
+  return pieces;
+}
+
 /// What a body does at the faces of an inner surface that it is near to.
 class NearFaces {
  public:
   NearFaces(const RevolvedBody& body, const AxisPlacement& at, const InnerSurface& inner)
-      : body_(body), at_(at), inner_(inner) {}
+      : body_(body), at_(at), inner_(inner), hull_(pieces_of(body, at)) {}
 
   Clearance clearance() {
     look();
@@ -350,22 +341,9 @@ class NearFaces {
       const double depth = deepest_.depth();
       const Vec3 outwards = deepest_.on_obstacle - deepest_.on_body;
       if (!(depth > 0 && outwards.norm() > 0)) return;
-      detail::DeepPoints(inner_.whole(), deepest_).take_point(lowest_point(outwards.normalized()), 0);
+      detail::DeepPoints(inner_.whole(), deepest_).take_point(hull_.lowest_point(outwards.normalized()), 0);
       if (!(deepest_.depth() > depth)) return;
     }
-  }
-
-  /// Of the body, in a direction.
-  Vec3 lowest_point(const Vec3& normal) const {
-    Vec3 lowest = Vec3::Zero();
-    double height = kExact;
-    for (const BodyPiece& piece : body_.pieces()) {
-      const Vec3 point = PlacedFrustum(piece.core, at_).lowest_point(normal) - piece.rounding * normal;
-      if (!(normal.dot(point) < height)) continue;
-      height = normal.dot(point);
-      lowest = point;
-    }
-    return lowest;
   }
 
   /// Whether a point of the body is as deep as a face should be.
@@ -379,17 +357,16 @@ class NearFaces {
   /// Points of near faces, and points of the body that lie lowest before them.
   void look() {
     int left = kMaxFaces;
-    for (const BodyPiece& piece : body_.pieces()) {
-      const PlacedFrustum core(piece.core, at_);
-      const auto grown = detail::rounded(core, piece.rounding + kNear);
+    for (const detail::PieceInPlace& piece : hull_.pieces()) {
+      const auto grown = detail::rounded(piece.core, piece.rounding + kNear);
       detail::MeshSearch(*inner_.faces(), grown, 0).each_touching([&](const Triangle& face, const Clearance& found) {
         const Vec3 normal = face.area_vector().normalized();
         detail::DeepPoints deep(inner_.whole(), deepest_);
         // No point is farther from the surface than from the face below the surface, and that one from it.
-        const Vec3 lowest = lowest_point(normal);
+        const Vec3 lowest = hull_.lowest_point(normal);
         if (inner_.depth() + (face.nearest(lowest) - lowest).norm() > deepest_.depth()) deep.take_point(lowest, 0);
         if (is_deep()) return --left > 0;
-        if (const auto common = common_point(core, piece.rounding, face, found.on_obstacle)) {
+        if (const auto common = common_point(piece.core, piece.rounding, face, found.on_obstacle)) {
           deep.take_point(*common, 0);
         } else if (found.upper + kNear > 0 && is_deep(found.on_obstacle)) {
           Clearance apart = found;
@@ -405,6 +382,7 @@ class NearFaces {
   const RevolvedBody& body_;
   const AxisPlacement& at_;
   const InnerSurface& inner_;
+  detail::PieceHull hull_;                        ///< Of the body, in place.
   Clearance deepest_ = {.lower = 0, .upper = 0};  ///< Of points of the body in the mesh.
   Clearance nearest_;                             ///< To faces that are as deep as they should be.
 };
@@ -417,8 +395,8 @@ Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Inn
   if (bound >= sufficient || !detail::is_usable(bound)) return detail::bounded_by(bound);
   Clearance nearest;
   for (const BodyPiece& piece : body.pieces()) {
-    detail::MeshSearch(*inner.faces(), detail::rounded(PlacedFrustum(piece.core, at), piece.rounding), sufficient)
-        .until_touch(nearest);
+    const detail::PieceInPlace in_place = detail::placed(piece, at);
+    detail::MeshSearch(*inner.faces(), in_place, sufficient).until_touch(nearest);
     if (!(nearest.upper > 0)) break;
   }
   const bool is_near = !(nearest.lower > kNear);

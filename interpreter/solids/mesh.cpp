@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
+
+#include "interpreter/solids/mesh_edges.h"
 
 namespace isocnc::solids {
 
@@ -23,34 +26,13 @@ bool comes_before(const Vec3& a, const Vec3& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// The edges between the same two corners, as numbers of corners: low < high.
-struct MeshEdge {
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
-  bool runs_up = false;
-};
-
-std::vector<MeshEdge> sorted_edges(const std::vector<std::uint32_t>& corners) {
-  std::vector<MeshEdge> edges;
-  edges.reserve(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const std::uint32_t from = corners[i];
-    const std::uint32_t to = corners[i % 3 == 2 ? i - 2 : i + 1];
-    if (from != to) edges.push_back({std::min(from, to), std::max(from, to), from < to});
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const MeshEdge& a, const MeshEdge& b) { return std::pair(a.low, a.high) < std::pair(b.low, b.high); });
-  return edges;
-}
-
 /// Where edges run up and down in equal number between the same corners, each has its partner.
-std::size_t count_open(const std::vector<MeshEdge>& edges) {
+std::size_t count_open(const std::vector<detail::MeshEdge>& edges) {
   std::size_t open = 0;
   for (std::size_t i = 0; i < edges.size();) {
+    const std::size_t next = detail::end_of_same(edges, i);
     std::size_t up = 0;
-    std::size_t next = i;
-    for (; next < edges.size() && edges[next].low == edges[i].low && edges[next].high == edges[i].high; ++next)
-      up += edges[next].runs_up ? 1 : 0;
+    for (std::size_t k = i; k < next; ++k) up += edges[k].runs_up ? 1 : 0;
     const std::size_t down = next - i - up;
     open += std::max(up, down) - std::min(up, down);
     i = next;
@@ -79,7 +61,7 @@ std::vector<Vec3> points_of_surfaces(std::span<const Triangle> triangles, const 
 
 MeshTopology topology_of(std::span<const Triangle> triangles, const std::vector<std::uint32_t>& corners) {
   MeshTopology topology;
-  topology.open_edges = count_open(sorted_edges(corners));
+  topology.open_edges = count_open(detail::sorted_edges(corners));
   if (triangles.empty()) return topology;
   const Vec3 origin = triangles.front().corners[0];
   for (const Triangle& triangle : triangles) {
@@ -127,6 +109,26 @@ std::optional<ConvexSolid> convex_solid(std::span<const Triangle> triangles, con
 }
 
 }  // namespace
+
+std::vector<detail::MeshEdge> detail::sorted_edges(const std::vector<std::uint32_t>& corners) {
+  std::vector<MeshEdge> edges;
+  edges.reserve(corners.size());
+  for (std::uint32_t i = 0; i < corners.size(); ++i) {
+    const std::uint32_t from = corners[i];
+    const std::uint32_t to = corners[i % 3 == 2 ? i - 2 : i + 1];
+    if (from != to) edges.push_back({std::min(from, to), std::max(from, to), i, from < to});
+  }
+  std::sort(edges.begin(), edges.end(), [](const MeshEdge& a, const MeshEdge& b) {
+    return std::tuple(a.low, a.high, a.start) < std::tuple(b.low, b.high, b.start);
+  });
+  return edges;
+}
+
+std::size_t detail::end_of_same(const std::vector<MeshEdge>& edges, std::size_t first) {
+  std::size_t end = first + 1;
+  while (end < edges.size() && edges[end].low == edges[first].low && edges[end].high == edges[first].high) ++end;
+  return end;
+}
 
 std::vector<std::uint32_t> corner_numbers(std::span<const Triangle> triangles) {
   const auto corner = [&](std::uint32_t i) -> const Vec3& { return triangles[i / 3].corners[i % 3]; };

@@ -198,9 +198,7 @@ Overlap overlap(const A& a, const B& b, bool across_edges = false) {
   Overlap best;
   const auto consider = [&](const geometry::Vec3& n) {
     const double needed = a.highest(n) - b.lowest(n);
-    if (!(needed < best.depth)) return false;
-    best = {needed, n};
-    return true;
+    if (needed < best.depth) best = {needed, n};
   };
   const auto consider_both = [&](const geometry::Vec3& n) {
     consider(n);
