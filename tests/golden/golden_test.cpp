@@ -78,58 +78,60 @@ std::string difference(std::vector<std::string> a, std::vector<std::string> b) {
   return text;
 }
 
-class Golden : public testing::TestWithParam<std::filesystem::path> {};
-
-TEST_P(Golden, FindsWhatIsMarkedAndNothingElse) {
-  for (const Part& part : read_golden(GetParam())) {
-    std::vector<std::string> expected;
-    for (const ExpectedFinding& finding : part.findings) {
-      ExpectedFinding without_path = finding;
-      without_path.via.clear();
-      expected.push_back(shown(without_path, line_of(part.program, finding.line)));
-    }
-    const check::Report report = reported_in(part);
-    const std::vector<std::string> found = found_in(part, report);
-    EXPECT_EQ(difference(expected, found), "") << "missing in " << part.name;
-    EXPECT_EQ(difference(found, expected), "") << "not marked in " << part.name;
+void expect_findings(const Part& part, const check::Report& report) {
+  std::vector<std::string> expected;
+  for (const ExpectedFinding& finding : part.findings) {
+    ExpectedFinding without_path = finding;
+    without_path.via.clear();
+    expected.push_back(shown(without_path, line_of(part.program, finding.line)));
   }
+  const std::vector<std::string> found = found_in(part, report);
+  EXPECT_EQ(difference(expected, found), "") << "missing in " << part.name;
+  EXPECT_EQ(difference(found, expected), "") << "not marked in " << part.name;
 }
 
 std::string_view cause_of(const syntax::Finding& finding) {
   return finding.cause == 0 ? "usual" : dialect::definition(finding.id).causes[finding.cause - 1].cause;
 }
 
-TEST_P(Golden, KnowsTheCause) {
-  for (const Part& part : read_golden(GetParam())) {
-    const check::Report report = reported_in(part);
-    for (const ExpectedFinding& finding : part.findings) {
-      if (finding.cause.empty()) continue;
-      for (const check::LocatedFinding& located : report.findings)
-        if (located.line == finding.line && dialect::definition(located.finding.id).code == finding.code &&
-            text::column_of(line_of(part.program, located.line), located.finding.span.begin) - 1 == finding.begin) {
-          EXPECT_EQ(cause_of(located.finding), finding.cause) << part.name << " line " << finding.line + 1;
-        }
-    }
+void expect_causes(const Part& part, const check::Report& report) {
+  for (const ExpectedFinding& finding : part.findings) {
+    if (finding.cause.empty()) continue;
+    for (const check::LocatedFinding& located : report.findings)
+      if (located.line == finding.line && dialect::definition(located.finding.id).code == finding.code &&
+          text::column_of(line_of(part.program, located.line), located.finding.span.begin) - 1 == finding.begin) {
+        EXPECT_EQ(cause_of(located.finding), finding.cause) << part.name << " line " << finding.line + 1;
+      }
   }
 }
 
-TEST_P(Golden, NamesTheJumpThatLeadsToAFinding) {
+/// The jumps that lead to findings.
+void expect_paths(const Part& part, const check::Report& report) {
+  for (const ExpectedFinding& finding : part.findings) {
+    if (finding.via.empty()) continue;
+    bool named = false;
+    for (const check::LocatedFinding& located : report.findings) {
+      if (located.line != finding.line || dialect::definition(located.finding.id).code != finding.code) continue;
+      ASSERT_GE(located.path, 0) << part.name << " line " << finding.line + 1 << ": no path";
+      std::vector<std::size_t> lines;
+      for (const check::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
+        lines.push_back(step.line + 1);
+      EXPECT_THAT(lines, testing::IsSupersetOf(finding.via)) << part.name;
+      named = true;
+    }
+    EXPECT_TRUE(named) << part.name;
+  }
+}
+
+class Golden : public testing::TestWithParam<std::filesystem::path> {};
+
+/// One test, since the report takes the time.
+TEST_P(Golden, FindsWhatIsMarkedAndNothingElse) {
   for (const Part& part : read_golden(GetParam())) {
     const check::Report report = reported_in(part);
-    for (const ExpectedFinding& finding : part.findings) {
-      if (finding.via.empty()) continue;
-      bool named = false;
-      for (const check::LocatedFinding& located : report.findings) {
-        if (located.line != finding.line || dialect::definition(located.finding.id).code != finding.code) continue;
-        ASSERT_GE(located.path, 0) << part.name << " line " << finding.line + 1 << ": no path";
-        std::vector<std::size_t> lines;
-        for (const check::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
-          lines.push_back(step.line + 1);
-        EXPECT_THAT(lines, testing::IsSupersetOf(finding.via)) << part.name;
-        named = true;
-      }
-      EXPECT_TRUE(named) << part.name;
-    }
+    expect_findings(part, report);
+    expect_causes(part, report);
+    expect_paths(part, report);
   }
 }
 

@@ -71,6 +71,7 @@ TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
 }
 
 TEST_P(Table, RightProgramHasNone) {
+  if (GetParam().number > 0) return;  // All causes of a code have the same.
   const DiagnosticDef& def = definition(GetParam().id);
   const std::string_view right = def.right.empty() ? "M02\n" : def.right;
   EXPECT_EQ(codes_of(reported_in(right, GetParam().id)), "") << right;
