@@ -16,24 +16,57 @@ static constexpr double kMaxChords = 4096;
 /// Maximum number of distances between a point and a line, from one chain to another one.
 static constexpr std::size_t kMaxDistances = 20'000'000;
 
+/// Search for the nearest place of a rapid whose joints move independently: places on a grid, then steps between two.
+static constexpr int kLooks = 64;
+static constexpr int kNarrowings = 40;
+
 static double between(double from, double to, double part) { return from + part * (to - from); }
 
 ActionPath::ActionPath(const RecordedRun& run, const MachineAction& motion)
     : run_(run), motion_(motion), is_arc_(motion.arc != MachineAction::kNone) {
   if (motion.is_by_joints) {
     if (motion.tool != MachineAction::kNone) tool_length_ = run.tools[motion.tool].length;
-    from_joints_ = kinematics::inverse(run.kinematics, kinematics::coordinates(motion.from), tool_length_);
-    along_joints_ =
-        kinematics::inverse(run.kinematics, kinematics::coordinates(motion.to), tool_length_) - from_joints_;
+    const kinematics::Move rapid{
+        .from = motion.from, .to = motion.to, .controls_tool_point = false, .tool_length = tool_length_};
+    from_joints_ = kinematics::inverse(kinematics(), kinematics::coordinates(motion.from), tool_length_);
+    along_joints_ = kinematics::inverse(kinematics(), kinematics::coordinates(motion.to), tool_length_) - from_joints_;
+    if (kinematics::moves_independently(run.machine, rapid)) parts_ = kinematics::independent_rapid(run.machine, rapid);
   }
   if (!is_arc_) return;
   const ActionArc& arc = run.arcs[motion.arc];
   helix_ = geometry::helix(motion.from.tip, motion.to.tip, arc.center, arc.normal, arc.sweep_deg);
 }
 
+kinematics::Coordinates ActionPath::joints(double part) const {
+  if (parts_.empty()) return from_joints_ + part * along_joints_;
+  double left = 0;
+  for (const kinematics::RapidPart& each : parts_) left += part * each.length;
+  std::size_t i = 0;
+  while (i + 1 < parts_.size() && left > parts_[i].length) left -= parts_[i++].length;
+  return parts_[i].path.joints_at(kinematics(), std::min(left, parts_[i].length)).value;
+}
+
+double ActionPath::nearest_in_joints(const kinematics::Coordinates& there, double from_part) const {
+  const auto distance = [&](double part) { return (joints(part) - there).squaredNorm(); };
+  const double step = (1 - from_part) / kLooks;
+  double best = from_part;
+  for (int i = 1; i <= kLooks; ++i)
+    if (distance(from_part + i * step) < distance(best)) best = from_part + i * step;
+  double low = std::max(from_part, best - step);
+  double high = std::min(1.0, best + step);
+  for (int i = 0; i < kNarrowings; ++i) {
+    const double third = (high - low) / 3;
+    if (distance(low + third) > distance(high - third)) {
+      low += third;
+    } else {
+      high -= third;
+    }
+  }
+  return (low + high) / 2;
+}
+
 Pose ActionPath::at(double part) const {
-  if (motion_.is_by_joints)
-    return kinematics::pose(kinematics::forward(run_.kinematics, from_joints_ + part * along_joints_, tool_length_));
+  if (motion_.is_by_joints) return kinematics::pose(kinematics::forward(kinematics(), joints(part), tool_length_));
   Pose pose{motion_.from.tip + part * (motion_.to.tip - motion_.from.tip), between(motion_.from.b, motion_.to.b, part),
             between(motion_.from.c, motion_.to.c, part)};
   if (!is_arc_) return pose;
@@ -45,9 +78,10 @@ Pose ActionPath::at(double part) const {
 std::optional<double> ActionPath::nearest(const Pose& pose, double from_part) const {
   const Vec3& point = pose.tip;
   if (motion_.is_by_joints) {
-    const kinematics::Coordinates joints =
-        kinematics::inverse(run_.kinematics, kinematics::coordinates(pose), tool_length_);
-    return std::clamp(along_joints_.dot(joints - from_joints_) / along_joints_.squaredNorm(), from_part, 1.0);
+    const kinematics::Coordinates there =
+        kinematics::inverse(kinematics(), kinematics::coordinates(pose), tool_length_);
+    if (!parts_.empty()) return nearest_in_joints(there, from_part);
+    return std::clamp(along_joints_.dot(there - from_joints_) / along_joints_.squaredNorm(), from_part, 1.0);
   }
   if (!is_arc_) {
     const Vec3 along = motion_.to.tip - motion_.from.tip;

@@ -6,6 +6,7 @@
 
 #include "interpreter/comparison/machine_action.h"
 #include "interpreter/geometry/helix.h"
+#include "interpreter/kinematics/independent_rapid.h"
 
 namespace isocnc::comparison {
 
@@ -22,12 +23,17 @@ class ActionPath {
   double length() const;
 
  private:
+  const kinematics::Kinematics& kinematics() const { return run_.machine.kinematics; }
+  kinematics::Coordinates joints(double part) const;
+  double nearest_in_joints(const kinematics::Coordinates& there, double from_part) const;
+
   const RecordedRun& run_;
   const MachineAction& motion_;
   bool is_arc_;
   double tool_length_ = 0;
   kinematics::Coordinates from_joints_;  ///< Of a rapid by joints.
   kinematics::Coordinates along_joints_;
+  std::vector<kinematics::RapidPart> parts_;  ///< Of a rapid whose joints move independently.
   geometry::Helix helix_;
 };
 

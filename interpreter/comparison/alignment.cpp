@@ -101,16 +101,26 @@ static bool is_same_arc(const RunPair& runs, const MachineAction& a, const Machi
          (right.center - left.center - shift).squaredNorm() <= runs.tolerance * runs.tolerance / 4;
 }
 
+/// Whether the joints of two machines go together in the same way.
+static bool has_same_rapids(const kinematics::Machine& left, const kinematics::Machine& right) {
+  if (left.rapid_motion != right.rapid_motion) return false;
+  if (left.rapid_motion == kinematics::RapidMotion::Interpolated) return true;
+  const auto is_same = [](const kinematics::AxisLimits& one, const kinematics::AxisLimits& other) {
+    return one.speed == other.speed && one.acceleration == other.acceleration && one.jerk == other.jerk;
+  };
+  return std::equal(left.axes.begin(), left.axes.end(), right.axes.begin(), is_same);
+}
+
 /// Whether the joints lead the tip in the same way: one machine, with tools of the same length.
 static bool has_same_head(const RunPair& runs, const MachineAction& a, const MachineAction& b) {
-  const kinematics::Kinematics& left = runs.a.kinematics;
-  const kinematics::Kinematics& right = runs.b.kinematics;
+  const kinematics::Kinematics& left = runs.a.machine.kinematics;
+  const kinematics::Kinematics& right = runs.b.machine.kinematics;
   const auto length = [](const RecordedRun& run, const MachineAction& motion) {
     return motion.tool == MachineAction::kNone ? 0 : run.tools[motion.tool].length;
   };
-  return left.kind == right.kind && left.pivot == right.pivot && left.b_from_c == right.b_from_c &&
-         left.spindle_from_b == right.spindle_from_b && left.b_point == right.b_point &&
-         left.c_point == right.c_point && length(runs.a, a) == length(runs.b, b);
+  return has_same_rapids(runs.a.machine, runs.b.machine) && left.kind == right.kind && left.pivot == right.pivot &&
+         left.b_from_c == right.b_from_c && left.spindle_from_b == right.spindle_from_b &&
+         left.b_point == right.b_point && left.c_point == right.c_point && length(runs.a, a) == length(runs.b, b);
 }
 
 /// Whether a motion goes where the rest of the other one does, to the end of both.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "interpreter/kinematics/element.h"
+#include "interpreter/kinematics/independent_rapid.h"
 #include "interpreter/simulation/spindle_turn.h"
 
 namespace isocnc::comparison {
@@ -17,7 +19,7 @@ namespace {
 class ActionRecorder {
  public:
   explicit ActionRecorder(const simulation::TimedMachine& machine) : machine_(machine) {
-    run_.kinematics = machine.motion.kinematics;
+    run_.machine = machine.motion;
     run_.frames.emplace_back();
   }
 
@@ -77,8 +79,7 @@ class ActionRecorder {
     MachineAction& action = append(ActionKind::Motion);
     action.is_rapid = event.kind == execution::MoveKind::Rapid;
     action.is_inverse_time = event.inverse_time && !action.is_rapid;
-    action.is_by_joints =
-        action.is_rapid && turn > 0 && machine_.motion.kinematics.kind != kinematics::MachineKind::ThreeAxis;
+    action.is_by_joints = kinematics::swings(machine_.motion, move) || kinematics::leaves_line(machine_.motion, move);
     action.value = action.is_rapid ? 0 : event.feed;
     action.feed = action.is_rapid ? 0 : running::feed_of(event);
     action.from = move.from;

@@ -28,7 +28,8 @@ struct MachineAction {
   ActionKind kind = ActionKind::Motion;
   bool is_rapid = false;
   bool is_inverse_time = false;  ///< The feed is written under G93.
-  bool is_by_joints = false;     ///< A rapid that turns B or C: the joints go straight, not the tip (I.3.4.1).
+  /// A rapid whose joints lead the tip off a straight line: they turn B or C, or move independently (I.3.4.1).
+  bool is_by_joints = false;
   /// Motion: the side of compensation, 41, 42 or 0 for none. Only where the control leads the tool beside the path:
   /// `has_side` is false for motions along the normal of the arc plane, and for those that turn B or C.
   std::uint8_t side = 0;
@@ -86,7 +87,7 @@ struct RecordedRun {
   std::vector<ActionFrame> frames;  ///< The first one is the machine frame.
   std::vector<running::FunctionEvent> functions;
   std::vector<ActionDecision> decisions;
-  kinematics::Kinematics kinematics;
+  kinematics::Machine machine;
   double seconds = 0;               ///< Cycle time.
   double seconds_without_tool = 0;  ///< The part of it before the first tool change.
   double feed_mm = 0;               ///< Length of the tip's path in feed moves.

@@ -18,7 +18,7 @@ namespace {
 std::vector<std::size_t> take_motions(const RecordedRun& run, std::size_t begin, std::size_t end, RecordedRun& taken) {
   std::vector<std::size_t> indices;
   taken.tools = run.tools;
-  taken.kinematics = run.kinematics;
+  taken.machine = run.machine;
   for (std::size_t i = begin; i < end; ++i) {
     if (!run.actions[i].is_motion()) continue;
     indices.push_back(i);

@@ -34,7 +34,7 @@ struct MotionStep {
 
 /// The motions of a part of both runs, without what the machine does between them.
 struct MotionBlock {
-  RecordedRun a;  ///< Only actions, arcs, tools and kinematics.
+  RecordedRun a;  ///< Only actions, arcs, tools and the machine.
   RecordedRun b;
   /// The index of each motion in the whole run; of the last part of a line that is joined from parts.
   std::vector<std::size_t> a_actions;

@@ -135,6 +135,7 @@ struct MachineConfiguration {
   simulation::TimedMachine timed;
   std::array<double, execution::kAxisCount> rapids = default_rapids();  ///< mm/min, degrees/min.
   std::string kind = "head";                                            ///< `three-axis`, `head`, `table`.
+  std::string rapid_motion = "interpolated";                            ///< Or `independent`.
   std::optional<std::vector<Tool>> tools;
   std::optional<std::vector<NamedFunction>> functions;
   std::vector<NamedRows> holders;     ///< Height, lower diameter, upper diameter, from the collet's face up.

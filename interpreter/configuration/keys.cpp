@@ -38,6 +38,7 @@ static constexpr std::string_view kToolShapes[] = {"flat", "ball", "bull", "cone
 static constexpr std::string_view kMachineParts[] = {"machine", "X", "Y", "Z", "C", "B"};
 static constexpr std::string_view kSetupFrames[] = {"workpiece", "machine"};
 static constexpr std::string_view kMachineKinds[] = {"three-axis", "head", "table"};
+static constexpr std::string_view kRapidMotions[] = {"interpolated", "independent"};
 
 /// Larger than any machine, and small enough to compute with.
 static constexpr NumberRange kLength = {-1e6, 1e6};
@@ -172,6 +173,17 @@ static void add_axes(std::vector<Key>& keys) {
 }
 
 static void add_limits(std::vector<Key>& keys) {
+  keys.push_back({.path = "machine.rapidMotion",
+                  .kind = KeyKind::Choice,
+                  .choices = kRapidMotions,
+                  .documentation =
+                      {"How the axes go in a G00: all start and arrive together, on a straight line; or each goes as "
+                       "fast as it can and arrives when it can, so that the path bends, and the machine stops before "
+                       "and after each G00.",
+                       "Come vanno gli assi in una G00: partono e arrivano tutti insieme, su una retta; oppure ognuno "
+                       "va più in fretta che può e arriva quando può: il percorso si piega, e la macchina si ferma "
+                       "prima e dopo ogni G00."},
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.rapid_motion; }});
   keys.push_back({.path = "machine.maxFeed",
                   .kind = KeyKind::Number,
                   .range = kSpeed,

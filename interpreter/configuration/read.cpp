@@ -548,6 +548,8 @@ static void derive_motion(MachineConfiguration& machine) {
   motion.kinematics.kind = machine.kind == "head"    ? kinematics::MachineKind::Head
                            : machine.kind == "table" ? kinematics::MachineKind::Table
                                                      : kinematics::MachineKind::ThreeAxis;
+  motion.rapid_motion = machine.rapid_motion == "independent" ? kinematics::RapidMotion::Independent
+                                                              : kinematics::RapidMotion::Interpolated;
   for (std::size_t i = 0; i < motion.axes.size(); ++i) {
     motion.axes[i].minimum = machine.setup.limits.travel[i].minimum;
     motion.axes[i].maximum = machine.setup.limits.travel[i].maximum;

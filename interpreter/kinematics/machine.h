@@ -43,8 +43,15 @@ struct Kinematics {
   geometry::Vec3 c_point = geometry::Vec3::Zero();  ///< Table: a point of the C axis at B = 0, machine frame, mm.
 };
 
+/// How the joints go together in rapids (I.3.4.1 leaves it to the machine).
+enum class RapidMotion : std::uint8_t {
+  Interpolated,  ///< All joints start and arrive together: a straight line of the joints.
+  Independent,   ///< Each joint moves as fast as it can and arrives when it can, from rest to rest.
+};
+
 struct Machine {
   std::array<AxisLimits, kAxisCount> axes;
+  RapidMotion rapid_motion = RapidMotion::Interpolated;
   Kinematics kinematics;
   double feed_speed = std::numeric_limits<double>::infinity();  ///< Maximum speed of the tip on feed moves, mm/s.
   double feed_turn = std::numeric_limits<double>::infinity();   ///< Maximum speed of B and C on feed moves, degrees/s.

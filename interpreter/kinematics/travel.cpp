@@ -8,6 +8,7 @@
 
 #include "interpreter/geometry/helix.h"
 #include "interpreter/kinematics/element.h"
+#include "interpreter/kinematics/independent_rapid.h"
 
 namespace isocnc::kinematics {
 
@@ -20,9 +21,16 @@ static constexpr int kPeakSteps = 60;
 /// Maximum number of grid points. Rotary axes do not turn far enough in one move to need more.
 static constexpr int kMaxGridPoints = 10'000;
 
-/// The path of a move as a function of the part of it that is traveled, 0 to 1.
+/// Minimum number of grid points of a part of a rapid, on which the coordinates are polynomials.
+static constexpr int kPolynomialGrid = 8;
+
+/// The path of a move, or of a part of a rapid, as a function of the part of it that is traveled, 0 to 1.
 class MovePath {
  public:
+  MovePath(const Machine& machine, const RapidPart& part)
+      : machine_(machine), path_{part.path, part.length}, minimum_grid_(kPolynomialGrid) {
+    turned_.tail<2>() = (part.path.at(part.length).value - part.path.at(0).value).tail<2>();
+  }
   MovePath(const Machine& machine, const Move& move)
       : machine_(machine),
         path_(move.is_arc ? programmed_circle(move) : programmed_line(machine, move, move.from, move.to)) {
@@ -52,13 +60,14 @@ class MovePath {
   /// Returns the number of parts of a grid that is fine enough to have at most one peak between neighboring points.
   int grid() const {
     const double turn = std::abs(path().omega) * path_.length + turned_.cwiseAbs().sum() * std::numbers::pi / 180;
-    return std::max(2, part_count(turn / kGridTurn, kMaxGridPoints));
+    return std::max(minimum_grid_, part_count(turn / kGridTurn, kMaxGridPoints));
   }
 
  private:
   const Machine& machine_;
   ProgrammedPath path_;
   Coordinates turned_ = Coordinates::Zero();
+  int minimum_grid_ = 2;
 };
 
 /// Returns the values of `at` at the points of a grid from 0 to 1.
@@ -170,18 +179,38 @@ static std::array<Range, 3> swing_extents(const MovePath& path, const geometry::
   return {Range{end(0, -1), end(0, 1)}, Range{end(1, -1), end(1, 1)}, Range{end(2, -1), end(2, 1)}};
 }
 
+/// Returns the extents of the tip in a rapid whose joints move independently.
+static std::array<Range, 3> rapid_extents(const Machine& machine, const Move& rapid, const geometry::Frame& frame) {
+  std::array<Range, 3> all = extents(frame.to_inner(rapid.from.tip), frame.to_inner(rapid.to.tip));
+  for (const RapidPart& part : independent_rapid(machine, rapid)) {
+    const std::array<Range, 3> extents = swing_extents(MovePath(machine, part), frame);
+    for (std::size_t axis = 0; axis < all.size(); ++axis) all[axis].include(extents[axis]);
+  }
+  return all;
+}
+
+static double rapid_length(const Machine& machine, const Move& rapid) {
+  double length = 0;
+  for (const RapidPart& part : independent_rapid(machine, rapid)) length += integrated_length(MovePath(machine, part));
+  return length;
+}
+
 /// Returns whether the tip moves along a line. This holds for most moves, and is decided without a MovePath.
-static bool goes_straight(const Machine& machine, const Move& move) { return !move.is_arc && !swings(machine, move); }
+static bool goes_straight(const Machine& machine, const Move& move) {
+  return !move.is_arc && !swings(machine, move) && !leaves_line(machine, move);
+}
 
 TipTravel tip_travel(const Machine& machine, const Move& move) {
   if (goes_straight(machine, move)) return {(move.to.tip - move.from.tip).norm(), extents(move.from.tip, move.to.tip)};
   if (move.is_arc) return arc_travel(machine, move);
+  if (leaves_line(machine, move)) return {rapid_length(machine, move), rapid_extents(machine, move, {})};
   const MovePath path(machine, move);
   return {integrated_length(path), swing_extents(path, {})};
 }
 
 std::array<Range, 3> tip_extents(const Machine& machine, const Move& move, const geometry::Frame& frame) {
   if (goes_straight(machine, move)) return extents(frame.to_inner(move.from.tip), frame.to_inner(move.to.tip));
+  if (leaves_line(machine, move)) return rapid_extents(machine, move, frame);
   return move.is_arc ? arc_extents(helix_of(move), frame) : swing_extents(MovePath(machine, move), frame);
 }
 

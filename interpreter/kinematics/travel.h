@@ -25,8 +25,8 @@ struct Overtravel {
 /// range and once above. The whole path is checked, with the bulges of arcs and the swings of the pivot.
 std::vector<Overtravel> overtravels(const Machine& machine, const Move& move);
 
-/// Length and extents of the tip's path: of the programmed path, or for a rapid that turns B or C, of the path on which
-/// the joints carry the tip.
+/// Length and extents of the tip's path: of the programmed path, or for a rapid that turns B or C or whose joints move
+/// independently, of the path on which the joints carry the tip.
 struct TipTravel {
   double length = 0;                       ///< Length of the tip's path, mm.
   std::array<geometry::Range, 3> extents;  ///< Ranges of X, Y and Z of the tip, machine frame, mm.

@@ -25,6 +25,17 @@ void JerkLimiter::append(const kinematics::Machine& machine, const Piece& piece,
   if (first_pieces_.size() >= kTrialPieces) begin(machine);
 }
 
+void JerkLimiter::append_phase(const Piece& piece, const Phase& phase) {
+  Stretch& stretch = finished_.emplace_back();
+  stretch.tag = piece.tag;
+  stretch.ends_move = piece.ends_move;
+  stretch.start = std::exchange(time_, time_ + phase.duration);
+  stretch.duration = phase.duration;
+  stretch.path = piece.path;
+  stretch.phases[0] = phase;
+  stretch.phase_count = 1;
+}
+
 void JerkLimiter::begin(const kinematics::Machine& machine) {
   motion_.emplace(machine, best_smoothing(machine), time_);
   for (const PendingPiece& pending : first_pieces_)

@@ -20,6 +20,9 @@ class JerkLimiter {
  public:
   /// Appends a piece. `feed_cap`: maximum of (ds/dt)^2 by the feed, mm^2/s^2.
   void append(const kinematics::Machine& machine, const Piece& piece, double feed_cap);
+  /// Appends a piece that takes a given phase. Requires that the machine is at rest, and comes to rest after the last
+  /// one of a sequence of such pieces.
+  void append_phase(const Piece& piece, const Phase& phase);
   /// Ends the motion at rest after the pieces appended so far.
   void come_to_rest(const kinematics::Machine& machine);
   /// Stays at rest for a time, s. Requires that the machine is at rest.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "interpreter/kinematics/independent_rapid.h"
 #include "interpreter/kinematics/numbers.h"
 
 namespace isocnc::motion {
@@ -43,8 +44,28 @@ void Planner::push(const kinematics::Move& move) {
   if (has_end_ && differ(end_, move.from)) come_to_rest();
   end_ = move.to;
   has_end_ = true;
+  if (kinematics::moves_independently(machine_, move)) return append_rapid(move);
   splitter_.take(machine_, move);
   if (!splitter_.has_more() && move.exact_stop) come_to_rest();
+}
+
+/// Appends a rapid whose joints move independently.
+void Planner::append_rapid(const kinematics::Move& rapid) {
+  come_to_rest();
+  forget_some();
+  const std::vector<kinematics::RapidPart> parts = kinematics::independent_rapid(machine_, rapid);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const kinematics::RapidPart& part = parts[i];
+    const Piece piece{part.path, 0, part.length, rapid.tag, i + 1 == parts.size()};
+    const Phase phase{part.duration, 0, part.speed, part.acceleration, part.jerk};
+    if (jerk_limiter_) {
+      jerk_limiter_->append_phase(piece, phase);
+    } else {
+      profile_.append_phase(piece.length, phase);
+      tracks_.push_back({piece});
+    }
+  }
+  profile_.come_to_rest();
 }
 
 void Planner::rest(double seconds) {
@@ -60,8 +81,7 @@ void Planner::take_elements() {
 
 /// Takes the next element. An element is appended to the profile when the next element or a stop determines its end.
 void Planner::take(kinematics::Element element) {
-  if (profile_.holds_much_past()) profile_.forget_handed_out();
-  if (handed_out_ >= kForgotten || handed_out_ == tracks_.size()) forget_tracks();
+  forget_some();
   if (has_last_ && jerk_limiter_) join_smoothly(element);
   if (has_last_ && !jerk_limiter_) join(element);
   last_ = element;
@@ -71,6 +91,12 @@ void Planner::take(kinematics::Element element) {
   } else if (profile_.wants_planning()) {
     profile_.plan_ahead();
   }
+}
+
+/// Frees the memory of stretches that are handed out, where that is worth its cost.
+void Planner::forget_some() {
+  if (profile_.holds_much_past()) profile_.forget_handed_out();
+  if (handed_out_ >= kForgotten || handed_out_ == tracks_.size()) forget_tracks();
 }
 
 void Planner::forget_handed_out() {

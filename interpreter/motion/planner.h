@@ -33,7 +33,8 @@ class Planner {
  public:
   explicit Planner(kinematics::Machine machine);
 
-  /// Appends a move. A move without length yields no stretch, but its exact stop takes effect.
+  /// Appends a move. A move without length yields no stretch, but its exact stop takes effect. Rapids whose joints move
+  /// independently start and end at rest.
   void push(const kinematics::Move& move);
 
   /// Brings the machine to rest after all moves pushed so far, and keeps it at rest for `seconds`: for dwells, tool
@@ -65,6 +66,7 @@ class Planner {
     std::uint64_t next_tag = 0;  ///< Move::tag of the next move, if `is_shared`.
   };
 
+  void append_rapid(const kinematics::Move& rapid);
   void take_elements();
   void take(kinematics::Element element);
   void join(kinematics::Element& next);
@@ -80,6 +82,7 @@ class Planner {
   void append_corner(const Blend& blend, const kinematics::Element& before, const kinematics::Element& after);
   void append_corner(const SmoothBlend& blend, const kinematics::Element& before, const kinematics::Element& after);
   const Stretch* next_determined();
+  void forget_some();
   void forget_tracks();
   void hand_out(int spans);
 

@@ -53,6 +53,11 @@ void Profile::append_curve(double begin, double length, double cap, const kinema
 
 void Profile::append_level(double length, double cap) { add(SpanKind::Level, 0, length, cap); }
 
+void Profile::append_phase(double length, const Phase& phase) {
+  SpeedSpan& span = add(SpanKind::Phase, phase.from, length, 0);
+  span.phases[span.phase_count++] = phase;
+}
+
 void Profile::come_to_rest() {
   look_back_from_rest();
   plan_until(spans_.size(), 0);
@@ -82,6 +87,7 @@ double Profile::reach(const SpeedSpan& span, double x, kinematics::Direction dir
     case SpanKind::Curve:
       return kinematics::reach(bounds(span, direction), span.length, x);
     case SpanKind::Level:
+    case SpanKind::Phase:
       break;
   }
   return x;
@@ -187,6 +193,11 @@ static Course on_curve(std::span<const kinematics::CurveBound> forward,
 
 /// Computes the phases of a span. `is_reach`: the span changes the speed by its maximum, so its course is determined.
 void Profile::assign_times(SpeedSpan& span, double entry, double exit, bool is_reach) {
+  if (span.kind == SpanKind::Phase) {
+    span.duration = span.phases[0].duration;
+    span.start = std::exchange(time_, time_ + span.duration);
+    return;
+  }
   Course course{.peak = entry};
   if (span.kind == SpanKind::Line) course = on_line(span, entry, exit);
   if (span.kind == SpanKind::Curve)

@@ -21,6 +21,7 @@ class Profile {
     Line,   ///< Span under LineLimits.
     Curve,  ///< Span under CurveLimits.
     Level,  ///< Span on which the speed is constant.
+    Phase,  ///< Span that is a given phase.
   };
 
   /// An interval of the path with its own limits, and after planning, its phases.
@@ -49,6 +50,9 @@ class Profile {
   void append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits);
   /// Appends a span on which the speed is constant. `cap`: maximum of x.
   void append_level(double length, double cap);
+  /// Appends a span that is a given phase. Requires that the machine is at rest, and comes to rest after the last one
+  /// of a sequence of such spans.
+  void append_phase(double length, const Phase& phase);
 
   /// Plans all spans appended so far, with rest at their end.
   void come_to_rest();

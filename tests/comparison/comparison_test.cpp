@@ -466,6 +466,25 @@ TEST(Comparison, ComparesTheWholePathOfRapidsThatTurn) {
   EXPECT_GT(changes[0].distance.value_or(0), 1);
 }
 
+/// Where each joint goes at its own speed, a place on the line between the ends is not on the way.
+TEST(Comparison, ComparesTheWholePathOfIndependentRapids) {
+  simulation::TimedMachine machine = machine_of_tests();
+  const auto shown_on = [&](const std::string& one, const std::string& other) {
+    return shown(compare(record(one, {}, machine), record(other, {}, machine), {}));
+  };
+  const std::string one = kHead + "X310 Y80\nM02\n";
+  const std::string in_two = kHead + "X160 Y50\nX310 Y80\nM02\n";
+  const std::string with_y_first = kHead + "Y80\nX310\nM02\n";
+  EXPECT_EQ(shown_on(one, in_two), "");
+  machine.motion.rapid_motion = kinematics::RapidMotion::Independent;
+  EXPECT_NE(shown_on(one, in_two), "");
+  EXPECT_NE(shown_on(one, with_y_first), "");
+  EXPECT_EQ(shown_on(one, one), "");
+  EXPECT_EQ(shown_on(one, replaced(one, "X310", "X312")), "moved 4|4: moved by X2\n");
+  // Motions of one axis are lines on every machine.
+  EXPECT_EQ(shown_on(with_y_first, kHead + "Y50\nY80\nX310\nM02\n"), "");
+}
+
 /// Of a contour that is larger by 0.01 mm each motion is moved by another vector, though neighbors are moved by the
 /// same within the tolerance.
 TEST(Comparison, NamesAContourOfAnotherSizeOnce) {

@@ -12,6 +12,7 @@ inline constexpr std::string_view kRightTexts[] = {
     R"({"machine": {"home": {"x": -350.5, "b": 0, "c": 1e2}, "tolerances": {"arc": 0.05}}})",
     R"({"machine": {"axes": {"X": {"min": -10, "max": 3200}, "B": {"min": -100}, "C": {}}}})",
     R"({"machine": {"maxFeed": 20000, "maxRotarySpeed": 6e3, "maxSpindleSpeed": 18000, "clearance": 2}})",
+    R"({"machine": {"rapidMotion": "independent"}})",
     R"({"machine": {"tools": [], "functions": {}}})",
     R"({"machine": {"tools": [{"head": 1, "holder": 1.0, "tool": 999, "name": "\u00d8 8", "length": 80, "radius": 4},
                               {"head": 1, "holder": 2, "tool": 999}]}})",

@@ -85,11 +85,12 @@ TEST(ReadConfiguration, FillsTheSetup) {
   const Configuration configuration = read(R"({"machine": {
     "home": {"x": 1, "y": 2, "z": 3, "b": 4, "c": 5},
     "axes": {"X": {"min": -1, "max": 1}, "Y": {"min": -2}, "Z": {"max": 3}, "B": {"min": -4}, "C": {"max": 5}},
-    "maxFeed": 6, "maxRotarySpeed": 7, "maxSpindleSpeed": 8, "tolerances": {"arc": 0.5}, "clearance": -9,
+    "rapidMotion": "independent", "maxFeed": 6, "maxRotarySpeed": 7, "maxSpindleSpeed": 8, "tolerances": {"arc": 0.5}, "clearance": -9,
     "tools": [{"head": 1, "holder": 2, "tool": 3, "name": "cutter", "length": 80.5, "radius": 4}],
     "functions": {"M07": {"name": "air"}, "M100": {}}}})");
   const MachineConfiguration& machine = configuration.machine;
   const execution::Setup& setup = machine.setup;
+  EXPECT_EQ(machine.timed.motion.rapid_motion, kinematics::RapidMotion::Independent);
   EXPECT_EQ(setup.home.tip, geometry::Vec3(1, 2, 3));
   EXPECT_EQ(setup.home.b, 4);
   EXPECT_EQ(setup.home.c, 5);

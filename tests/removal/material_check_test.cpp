@@ -75,6 +75,19 @@ TEST(Material, RapidsThroughIt) {
   EXPECT_EQ(told(Bench().cut("G00 X250 Y89.9 Z50\nZ5\nX500\nZ50\n")), Lines());
 }
 
+/// X is so slow that Z has arrived before the cutter comes to the block.
+TEST(Material, RapidsGoWhereTheirJointsLeadThem) {
+  Bench bench;
+  bench.machine.motion.axes[kinematics::kX].speed = 100;
+  const std::string up = "G00 X250 Y150 Z5\nX500 Z50\n";
+  const std::string down = "G00 X250 Y150 Z50\nX500 Z5\n";
+  EXPECT_EQ(told(bench.cut(up)).size(), 1u);
+  EXPECT_NE(told(bench.cut(down)), Lines{"E150 4 35.0 Z40.0"});
+  bench.machine.motion.rapid_motion = kinematics::RapidMotion::Independent;
+  EXPECT_EQ(told(bench.cut(up)), Lines());
+  EXPECT_EQ(told(bench.cut(down)), Lines{"E150 4 35.0 Z40.0"});
+}
+
 TEST(Material, RapidsAndStoppedSpindlesAreFoundOnShortMotions) {
   // Each motion is shorter than what the cutter counts as thinner.
   const auto steps = [](const std::string& start) {

@@ -71,6 +71,21 @@ TEST(Contacts, RapidsHitAsWell) {
             "E152 3-3 the cutter of T101001 | cup 2 -20.0\n");
 }
 
+/// Where each joint goes at its own speed, Y arrives first, and X goes on beside the line between the ends.
+TEST(Contacts, RapidsGoWhereTheirJointsLeadThem) {
+  Shop shop;
+  shop.box("on the line", {140, 60, 0}, {150, 70, 30});
+  shop.box("beside it", {175, 98, 0}, {180, 102, 30});
+  const std::string program = "M06 T101001\nG00 X0 Y0 Z10\nX250 Y100\nM02\n";
+  for (kinematics::AxisLimits& axis : shop.machine.motion.axes) axis.speed = 1000, axis.acceleration = 5000;
+  EXPECT_EQ(told(shop.run(program).contacts), "E152 3-3 the cutter of T101001 | on the line -10.0\n");
+  shop.machine.motion.rapid_motion = kinematics::RapidMotion::Independent;
+  EXPECT_EQ(told(shop.run(program).contacts), "E152 3-3 the cutter of T101001 | beside it -12.0\n");
+  // One after the other they go the same way on both.
+  EXPECT_EQ(told(shop.run("M06 T101001\nG00 X0 Y0 Z10\nY100\nX250\nM02\n").contacts),
+            "E152 4-4 the cutter of T101001 | beside it -12.0\n");
+}
+
 TEST(Contacts, HolderAndNoseAreBodiesOfTheirOwn) {
   Shop shop;
   shop.scene.clearance = 0;
