@@ -92,6 +92,16 @@ Clearance between(const RoundedShape<Core>& body, const Shape& shape, double suf
   return result;
 }
 
+/// The same for a triangle, whose depth is asked for with care only where it may be the deepest: at more than
+/// `deepest`.
+template <class Core>
+Clearance to_triangle(const RoundedShape<Core>& body, const Triangle& triangle, double sufficient, double deepest) {
+  Clearance result = between(body, triangle, sufficient);
+  if (result.upper <= -body.rounding && result.depth() > deepest)
+    result.lower = result.upper = -(overlap(body.core, triangle, true).depth + body.rounding);
+  return result;
+}
+
 /// A lower bound of the signed distance between what two boxes contain: where the boxes overlap, nothing in them
 /// overlaps more than they do.
 inline double box_bound(const BoundingBox& a, const BoundingBox& b) {
@@ -209,7 +219,8 @@ class MeshSearch {
         nearest.lower = std::min(nearest.lower, bound);
         continue;
       }
-      include(nearest, enough < 0 ? between(body_, triangle, needed) : gap(body_, triangle, needed));
+      include(nearest,
+              enough < 0 ? to_triangle(body_, triangle, needed, nearest.depth()) : gap(body_, triangle, needed));
     }
   }
 
@@ -239,6 +250,41 @@ Clearance enclosed(const Clearance& nearest, double sufficient, Search&& search)
   result.lower = -result.lower;
   result.upper = result.lower;
   return result;
+}
+
+/// The point of a mesh's surface that is nearest to a point.
+inline geometry::Vec3 nearest_on_surface(const Mesh& mesh, const geometry::Vec3& point) {
+  struct QueuedNode {
+    std::uint32_t node;
+    double square;  ///< Of the distance from its box.
+  };
+  const auto queued = [&](std::uint32_t node) -> QueuedNode {
+    return {node, mesh.nodes()[node].box.squaredExteriorDistance(point)};
+  };
+  std::array<QueuedNode, 64> open;  // The tree is at most 31 deep.
+  std::size_t depth = 0;
+  open[depth++] = queued(0);
+  geometry::Vec3 nearest = geometry::Vec3::Zero();
+  double square = kUnbounded;
+  while (depth > 0) {
+    const QueuedNode entry = open[--depth];
+    if (!(entry.square < square)) continue;
+    const MeshNode& node = mesh.nodes()[entry.node];
+    for (const Triangle& triangle : mesh.triangles().subspan(node.first, node.count)) {
+      const geometry::Vec3 found = triangle.nearest(point);
+      if (const double each = (found - point).squaredNorm(); each < square) {
+        square = each;
+        nearest = found;
+      }
+    }
+    if (node.count > 0) continue;
+    const QueuedNode left = queued(node.first);
+    const QueuedNode right = queued(node.first + 1);
+    const bool is_left_nearer = left.square <= right.square;
+    open[depth++] = is_left_nearer ? right : left;
+    open[depth++] = is_left_nearer ? left : right;
+  }
+  return nearest;
 }
 
 /// The deepest of some points of a body in a closed mesh: to be free, the body has to move by their distance from the
@@ -271,12 +317,10 @@ class DeepPoints {
     const BoundingBox& box = mesh_.bounds();
     const double most = std::min((point - box.min()).minCoeff(), (box.max() - point).minCoeff());
     if (!(most > 0 && most + rounding > deepest_.depth()) || !mesh_.encloses(point)) return;
-    Clearance found;
-    const auto place = rounded(PlacedFrustum({0, 0, 0, 0}, {point, geometry::Vec3::UnitZ()}));
-    MeshSearch(mesh_, place, kExact).run(found);
-    const double depth = found.upper + rounding;
+    const geometry::Vec3 on_surface = nearest_on_surface(mesh_, point);
+    const double depth = (on_surface - point).norm() + rounding;
     if (!(depth > deepest_.depth())) return;
-    deepest_ = {.lower = -depth, .upper = -depth, .on_body = point, .on_obstacle = found.on_obstacle};
+    deepest_ = {.lower = -depth, .upper = -depth, .on_body = point, .on_obstacle = on_surface};
   }
 
  private:

@@ -317,10 +317,12 @@ class NearFaces {
   NearFaces(const RevolvedBody& body, const AxisPlacement& at, const InnerSurface& inner)
       : body_(body), at_(at), inner_(inner), hull_(pieces_of(body, at)) {}
 
-  Clearance clearance() {
+  /// `is_thorough`: where the body goes deeper, looks for its deepest point with care.
+  Clearance clearance(bool is_thorough) {
     look();
     if (!is_deep()) detail::DeepPoints(inner_.whole(), deepest_).take(body_, at_);
     go_deeper();
+    if (is_thorough && is_deep()) climb();
     const double beyond = deepest_.depth() - inner_.depth();
     if (beyond > -kRounding) {
       deepest_.lower = deepest_.upper = -std::max(beyond, 0.0);
@@ -334,16 +336,63 @@ class NearFaces {
  private:
   static constexpr int kMaxFaces = 64;
 
-  /// The deepest point of a body is the lowest one before the surface that is nearest to it.
+  /// The deepest point of a body is the lowest one before the surface that is nearest to it: of all points, or, as on
+  /// the side of a long cutter, of those beside one place on the axis.
   void go_deeper() {
     constexpr int kRounds = 4;
     for (int i = 0; i < kRounds; ++i) {
       const double depth = deepest_.depth();
       const Vec3 outwards = deepest_.on_obstacle - deepest_.on_body;
       if (!(depth > 0 && outwards.norm() > 0)) return;
-      detail::DeepPoints(inner_.whole(), deepest_).take_point(hull_.lowest_point(outwards.normalized()), 0);
-      if (!(deepest_.depth() > depth)) return;
+      const Vec3 n = outwards.normalized();
+      take(hull_.lowest_point(n));
+      for (const BodyPiece& piece : body_.pieces()) take(point_beside(piece, n));
+      if (!(deepest_.depth() > depth + kRounding)) return;
     }
+  }
+
+  void take(const Vec3& point) { detail::DeepPoints(inner_.whole(), deepest_).take_point(point, 0); }
+
+  /// The point of a piece that lies lowest along `n` of those beside one place on the axis, that of the deepest point.
+  Vec3 point_beside(const BodyPiece& piece, const Vec3& n) const {
+    const solids::Frustum& core = piece.core;
+    const double height = std::clamp(at_.axis.dot(deepest_.on_body - at_.origin), core.bottom, core.top);
+    const double length = core.top - core.bottom;
+    const double part = length > 0 ? (height - core.bottom) / length : 0;
+    const double radius = core.bottom_radius + part * (core.top_radius - core.bottom_radius);
+    const Vec3 across = n - n.dot(at_.axis) * at_.axis;
+    const Vec3 beside = across.norm() > 0 ? Vec3(across.normalized()) : Vec3(Vec3::Zero());
+    return at_.at(height) - radius * beside - piece.rounding * n;
+  }
+
+  /// Goes away from the nearest face in steps that become shorter: so it ends between the faces that are equally near,
+  /// where the body is deepest.
+  void climb() {
+    constexpr int kSteps = 48;
+    constexpr double kShorter = 0.87;
+    const detail::PieceInPlace piece = piece_of(deepest_.on_body);
+    Vec3 point = deepest_.on_body;
+    double step = std::max(deepest_.depth(), body_.sphere_radius() / 50);
+    for (int i = 0; i < kSteps; ++i, step *= kShorter) {
+      const Vec3 on_surface = detail::nearest_on_surface(inner_.whole(), point);
+      const Vec3 away = point - on_surface;
+      const double distance = away.norm();
+      const bool is_inside = inner_.whole().encloses(point);
+      if (is_inside && distance > deepest_.depth())
+        deepest_ = {.lower = -distance, .upper = -distance, .on_body = point, .on_obstacle = on_surface};
+      if (!(distance > 0)) return;
+      point = nearest_of(piece, point + (is_inside ? step : -step) / distance * away);
+    }
+  }
+
+  static Vec3 nearest_of(const detail::PieceInPlace& piece, const Vec3& point) {
+    return detail::PieceHull({piece}).nearest(point);
+  }
+
+  const detail::PieceInPlace& piece_of(const Vec3& point) const {
+    const auto distance = [&](const detail::PieceInPlace& piece) { return (nearest_of(piece, point) - point).norm(); };
+    return *std::min_element(hull_.pieces().begin(), hull_.pieces().end(),
+                             [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   }
 
   /// Whether a point of the body is as deep as a face should be.
@@ -401,8 +450,12 @@ Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Inn
   }
   const bool is_near = !(nearest.lower > kNear);
   if (!is_near && !inner.whole().encloses(at.at(body.pieces().front().core.bottom))) return nearest;
-  const Clearance looked = NearFaces(body, at, inner).clearance();
+  const Clearance looked = NearFaces(body, at, inner).clearance(false);
   return is_near || looked.upper <= 0 ? looked : nearest;
+}
+
+Clearance deepest(const RevolvedBody& body, const AxisPlacement& at, const InnerSurface& inner) {
+  return inner.faces() ? NearFaces(body, at, inner).clearance(true) : Clearance();
 }
 
 }  // namespace isocnc::solids

@@ -40,4 +40,8 @@ class InnerSurface {
 Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const InnerSurface& inner,
                     double sufficient = kExact);
 
+/// The same for a body that reaches the inner surface, with its deepest point sought with care: the depth in the mesh
+/// is nearly always right within 5 %. Takes some three times as long.
+Clearance deepest(const RevolvedBody& body, const AxisPlacement& at, const InnerSurface& inner);
+
 }  // namespace isocnc::solids

@@ -56,6 +56,10 @@ solids::Clearance distance_of(const MovingPart& part, const Obstacle& obstacle, 
                             }));
 }
 
+solids::Clearance deepest_of(const BodyPair& pair, const solids::AxisPlacement& at) {
+  return solids::deepest(*pair.revolved, at, *pair.core);
+}
+
 double way_clearance_of(const BodyPair& pair, const Obstacle& obstacle, const solids::AxisPlacement& from,
                         const Vec3& way, double sufficient) {
   if (pair.core)

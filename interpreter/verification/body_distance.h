@@ -27,6 +27,9 @@ solids::Clearance distance_of(const BodyPair& pair, const Obstacle& obstacle, co
 solids::Clearance distance_of(const MovingPart& part, const Obstacle& obstacle, const solids::Placement& at,
                               double sufficient);
 
+/// How deep a part of the tool is in the core of an obstacle (BodyPair::core), as solids::deepest().
+solids::Clearance deepest_of(const BodyPair& pair, const solids::AxisPlacement& at);
+
 /// A lower bound of the distance on a straight way of a part of the tool or the nose, as solids::way_clearance().
 double way_clearance_of(const BodyPair& pair, const Obstacle& obstacle, const solids::AxisPlacement& from,
                         const geometry::Vec3& way, double sufficient);

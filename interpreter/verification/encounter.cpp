@@ -367,7 +367,8 @@ class Examination {
     for (;;) {
       const solids::AdvanceResult found = solids::first_contact(from, places.end(), known_at_start, speed, options);
       if (found.verdict == solids::AdvanceResult::Verdict::Contact) {
-        const solids::ContactSpan span = follow(places, found.s, distance, speed, rate);
+        solids::ContactSpan span = follow(places, found.s, distance, speed, rate);
+        if (pair.core) look_with_care(places, pair, rate, span);
         // From less than kApart to a touch so soon, both have not been apart.
         const bool from_start =
             !encounter.is_contact() && begin.upper <= kApart && rate * (span.first - places.begin()) <= kNearTolerance;
@@ -474,6 +475,27 @@ class Examination {
       }
       (is_left ? to : from) = is_left ? to - third : from + third;
     }
+  }
+
+  /// How deep a cutter is in the core of the target takes long to know with care: at the deepest place of a contact,
+  /// and in some others if it is long.
+  void look_with_care(StretchPlaces& places, const BodyPair& pair, double rate, solids::ContactSpan& span) const {
+    constexpr double kFarApart = 2;  // mm
+    constexpr double kMaxLooks = 8;
+    const double offset = bodies_.parts[pair.part].offset;
+    const auto look_at = [&](double s) {
+      const Clearance found = deepest_of(pair, places.tool_at(s, offset, bodies_.obstacles[pair.obstacle]));
+      if (!(found.upper < span.deepest.upper)) return;
+      span.deepest = found;
+      span.deepest_s = s;
+    };
+    look_at(span.deepest_s);
+    const double length = span.last - span.first;
+    const int looks = static_cast<int>(std::min(kMaxLooks, rate * length / kFarApart));
+    for (int i = 1; i <= looks; ++i) look_at(span.first + length * i / (looks + 1));
+    if (looks == 0) return;
+    const double step = length / (looks + 1) / 3;
+    for (const double s : {span.deepest_s - step, span.deepest_s + step}) look_at(std::clamp(s, span.first, span.last));
   }
 
   /// `lasts`: the touch before goes on.

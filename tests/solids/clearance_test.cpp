@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "scenes.h"
 
@@ -197,6 +199,19 @@ TEST(Clearance, OfAWayIsThatOfItsNearestPlace) {
     if (!ball.encloses(from.at(tool.middle()))) expect_nearest(ball);
     if (testing::Test::HasFatalFailure()) return;
   }
+}
+
+/// Of a part that is not convex, the depth across an upright edge is that of the edge, though the faces beside it reach
+/// deeper into the cutter.
+TEST(Clearance, OfAMeshIsMeasuredAcrossItsEdges) {
+  const auto part = scenes::prism({{0, 0}, {0, 50}, {-50, 50}, {-50, -50}, {100, -50}, {100, 0}}, 200);
+  const RevolvedBody tool = body(flat_body(9, 300));
+  for (const double depth : {0.05, 0.2, 1.0})
+    for (const double below : {0.02, 0.1, 0.5, 1.5, 3.0, 20.0}) {
+      const double aside = (9 - depth) / std::numbers::sqrt2;
+      EXPECT_NEAR(clearance(tool, upright(100 + aside, -aside, -below), *part).upper, -std::min(depth, below), 1e-4)
+          << depth << ", " << below;
+    }
 }
 
 /// A mesh of a box is as far away as the box.

@@ -13,34 +13,13 @@ namespace isocnc::solids {
 namespace {
 
 using scenes::body;
+using scenes::prism;
 using scenes::Random;
 using scenes::upright;
 using scenes::Vec3;
 
 constexpr double kDepth = 0.2;
 constexpr double kFacetError = 1.036;  ///< Between two facets, an inner edge is deeper by this factor at most.
-
-/// A prism along Y from 0 to `length`. The outline in X and Z is seen from the front, counterclockwise, and from its
-/// first corner all of it can be seen.
-std::shared_ptr<const Mesh> prism(const std::vector<geometry::Vec2>& outline, double length) {
-  std::vector<Triangle> triangles;
-  const auto at = [&](std::size_t i, double y) {
-    const geometry::Vec2& corner = outline[i % outline.size()];
-    return Vec3(corner.x(), y, corner.y());
-  };
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    triangles.push_back({{at(i, 0), at(i + 1, 0), at(i + 1, length)}});
-    triangles.push_back({{at(i, 0), at(i + 1, length), at(i, length)}});
-  }
-  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-    triangles.push_back({{at(0, 0), at(i + 1, 0), at(i, 0)}});
-    triangles.push_back({{at(0, length), at(i, length), at(i + 1, length)}});
-  }
-  for (Triangle& triangle : triangles) std::swap(triangle.corners[1], triangle.corners[2]);
-  auto mesh = std::make_shared<const Mesh>(std::move(triangles));
-  EXPECT_TRUE(mesh->topology().faces_outwards());
-  return mesh;
-}
 
 double distance(const RevolvedBody& tool, const AxisPlacement& at, const std::shared_ptr<const Mesh>& part,
                 double depth = kDepth) {
@@ -97,6 +76,27 @@ TEST(InnerSurface, IsRoundAboutAnInnerEdge) {
     EXPECT_GT(at(0.97 * kDepth), 0) << i;
     EXPECT_LE(at(kFacetError * kDepth + 0.001), 1e-6) << i;
   }
+}
+
+/// Beside a round part a long cutter is deepest where it is nearest to the axis of the part.
+TEST(InnerSurface, OfALongCutterIsDeepestBesideThePart) {
+  constexpr int kSides = 60;
+  constexpr double kHalf = std::numbers::pi / kSides;
+  std::vector<geometry::Vec2> outline;
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = (2 * i + 1) * kHalf;  // The middle of a face is at the outermost X and Z.
+    outline.emplace_back(20 * std::cos(angle), 20 * std::sin(angle));
+  }
+  const auto part = prism(outline, 200);
+  for (const RevolvedBody& tool : {body(ball_body(1, 370)), body(flat_body(1, 370)), body(bull_body(1, 0.3, 370))})
+    for (const double gouge : {0.21, 0.3, 0.5, 1.0, 2.0}) {
+      const double x = 20 * std::cos(kHalf) - gouge + 1;
+      for (const double tip : {-200.0, -60.0, -25.0, -5.0}) {
+        EXPECT_LE(distance(tool, upright(x, 100, tip), part), 0) << gouge << " from " << tip;
+        EXPECT_NEAR(deepest(tool, upright(x, 100, tip), InnerSurface(part, kDepth)).upper, kDepth - gouge, 0.01)
+            << gouge << " from " << tip;
+      }
+    }
 }
 
 /// A rib that is thinner than twice the depth has nothing that is deep, and the wall beside it is free to be finished.
@@ -167,6 +167,7 @@ TEST(InnerSurface, FindsWhatIsDeepAndNothingElse) {
     if (deepest > kFacetError * kDepth + 0.01) {
       ++deep;
       EXPECT_LE(found.upper, 0.02) << deepest;
+      EXPECT_LE(solids::deepest(tool, at, InnerSurface(part, kDepth)).upper, kDepth - deepest + 0.05) << deepest;
     }
     if (!(found.upper <= 0)) continue;
     EXPECT_NEAR(depth_of(*part, found.on_body), kDepth - found.upper, 1e-5);

@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,6 +23,26 @@ inline constexpr double kSceneError = 1e-9;  ///< By so much the construction of
 inline RevolvedBody body(const BodyOrProblem& made) { return std::get<RevolvedBody>(made); }
 
 inline AxisPlacement upright(double x, double y, double z) { return {{x, y, z}, {0, 0, 1}}; }
+
+/// A prism along Y from 0 to `length`. The outline in X and Z is seen from the front, counterclockwise, and from its
+/// first corner all of it can be seen.
+inline std::shared_ptr<const Mesh> prism(const std::vector<geometry::Vec2>& outline, double length) {
+  std::vector<Triangle> triangles;
+  const auto at = [&](std::size_t i, double y) {
+    const geometry::Vec2& corner = outline[i % outline.size()];
+    return Vec3(corner.x(), y, corner.y());
+  };
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    triangles.push_back({{at(i, 0), at(i + 1, 0), at(i + 1, length)}});
+    triangles.push_back({{at(i, 0), at(i + 1, length), at(i, length)}});
+  }
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+    triangles.push_back({{at(0, 0), at(i + 1, 0), at(i, 0)}});
+    triangles.push_back({{at(0, length), at(i, length), at(i + 1, length)}});
+  }
+  for (Triangle& triangle : triangles) std::swap(triangle.corners[1], triangle.corners[2]);
+  return std::make_shared<const Mesh>(std::move(triangles));
+}
 
 inline Vec3 any_direction(Random& random) {
   const double z = random.real(-1, 1);
