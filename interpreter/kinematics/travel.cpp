@@ -21,7 +21,7 @@ static constexpr int kPeakSteps = 60;
 /// Maximum number of grid points. Rotary axes do not turn far enough in one move to need more.
 static constexpr int kMaxGridPoints = 10'000;
 
-/// Minimum number of grid points of a part of a rapid, on which the coordinates are polynomials.
+/// Minimum number of grid points of a part of a rapid that turns, on which the joints are polynomials.
 static constexpr int kPolynomialGrid = 8;
 
 /// The path of a move, or of a part of a rapid, as a function of the part of it that is traveled, 0 to 1.
@@ -52,10 +52,11 @@ class MovePath {
 
   const Path& path() const { return path_.path; }
   bool is_arc() const { return path().kind == PathKind::Circle; }
-  bool has_straight_joints() const {
-    const bool turns = turned_.squaredNorm() > 0 && machine_.kinematics.kind != MachineKind::ThreeAxis;
-    return !is_arc() && (path().is_of_joints || !turns);
-  }
+  /// Whether B or C turn the tool or the workpiece.
+  bool turns() const { return turned_.squaredNorm() > 0 && machine_.kinematics.kind != MachineKind::ThreeAxis; }
+  bool has_straight_joints() const { return !is_arc() && (path().is_of_joints || !turns()); }
+  /// Of a part of a rapid.
+  bool has_straight_tip() const { return !turns() && path().c[2].isZero(0) && path().c[3].isZero(0); }
 
   /// Returns the number of parts of a grid that is fine enough to have at most one peak between neighboring points.
   int grid() const {
@@ -179,19 +180,100 @@ static std::array<Range, 3> swing_extents(const MovePath& path, const geometry::
   return {Range{end(0, -1), end(0, 1)}, Range{end(1, -1), end(1, 1)}, Range{end(2, -1), end(2, 1)}};
 }
 
+/// The integral of a function by Simpson's rule, on halves of the range where it is not yet within the tolerance.
+template <class Function>
+static double integral(Function&& function, double from, double to, double tolerance) {
+  constexpr int kMaxHalvings = 16;
+  struct Panel {
+    double from, to;
+    double at_from, at_middle, at_to;
+    double tolerance;
+    int halvings;
+
+    double area() const { return (to - from) / 6 * (at_from + 4 * at_middle + at_to); }
+  };
+  const auto panel = [&](double begin, double end, double at_begin, double at_end, double allowed, int halvings) {
+    return Panel{begin, end, at_begin, function((begin + end) / 2), at_end, allowed, halvings};
+  };
+  std::vector<Panel> open = {panel(from, to, function(from), function(to), tolerance, 0)};
+  double sum = 0;
+  while (!open.empty()) {
+    const Panel whole = open.back();
+    open.pop_back();
+    const double middle = (whole.from + whole.to) / 2;
+    const auto half = [&](double begin, double end, double at_begin, double at_end) {
+      return panel(begin, end, at_begin, at_end, whole.tolerance / 2, whole.halvings + 1);
+    };
+    const Panel first = half(whole.from, middle, whole.at_from, whole.at_middle);
+    const Panel second = half(middle, whole.to, whole.at_middle, whole.at_to);
+    const double difference = first.area() + second.area() - whole.area();
+    if (whole.halvings == kMaxHalvings || std::abs(difference) <= 15 * whole.tolerance) {
+      sum += first.area() + second.area() + difference / 15;
+    } else {
+      open.push_back(first);
+      open.push_back(second);
+    }
+  }
+  return sum;
+}
+
+/// The range from 0 to 1 of the polynomial of third degree with these values at 0, 1/3, 2/3 and 1.
+static Range range_through(const std::array<double, 4>& values) {
+  const auto [p, q, r, s] = values;
+  const double first = (-11 * p + 18 * q - 9 * r + 2 * s) / 2;
+  const double second = 9 * (2 * p - 5 * q + 4 * r - s) / 2;
+  const double third = 9 * (-p + 3 * q - 3 * r + s) / 2;
+  Range range{std::min(p, s), std::max(p, s)};
+  const auto look_at = [&, start = p](double t) {
+    if (!(t > 0 && t < 1)) return;
+    const double value = start + t * (first + t * (second + t * third));
+    range.include({value, value});
+  };
+  // Where the derivative first + 2 second t + 3 third t^2 is 0, in the form that cancels nothing.
+  const double discriminant = second * second - 3 * first * third;
+  if (!(discriminant >= 0)) return range;
+  const double root = -(second + std::copysign(std::sqrt(discriminant), second));
+  if (third != 0) look_at(root / (3 * third));
+  if (root != 0) look_at(first / root);
+  return range;
+}
+
 /// Returns the extents of the tip in a rapid whose joints move independently.
 static std::array<Range, 3> rapid_extents(const Machine& machine, const Move& rapid, const geometry::Frame& frame) {
   std::array<Range, 3> all = extents(frame.to_inner(rapid.from.tip), frame.to_inner(rapid.to.tip));
   for (const RapidPart& part : independent_rapid(machine, rapid)) {
-    const std::array<Range, 3> extents = swing_extents(MovePath(machine, part), frame);
-    for (std::size_t axis = 0; axis < all.size(); ++axis) all[axis].include(extents[axis]);
+    const MovePath path(machine, part);
+    std::array<Range, 3> found;
+    if (path.turns()) {
+      found = swing_extents(path, frame);
+    } else if (path.has_straight_tip()) {
+      found = extents(frame.to_inner(path.tip(0)), frame.to_inner(path.tip(1)));
+    } else {
+      std::array<Vec3, 4> points;
+      for (std::size_t i = 0; i < points.size(); ++i) points[i] = frame.to_inner(path.tip(static_cast<double>(i) / 3));
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        found[static_cast<std::size_t>(axis)] =
+            range_through({points[0][axis], points[1][axis], points[2][axis], points[3][axis]});
+    }
+    for (std::size_t axis = 0; axis < all.size(); ++axis) all[axis].include(found[axis]);
   }
   return all;
 }
 
 static double rapid_length(const Machine& machine, const Move& rapid) {
+  constexpr double kAccuracy = 1e-7;  // mm
   double length = 0;
-  for (const RapidPart& part : independent_rapid(machine, rapid)) length += integrated_length(MovePath(machine, part));
+  for (const RapidPart& part : independent_rapid(machine, rapid)) {
+    const MovePath path(machine, part);
+    if (path.has_straight_tip()) {
+      length += (path.tip(1) - path.tip(0)).norm();
+      continue;
+    }
+    const int panels = path.turns() ? path.grid() : 1;
+    for (int i = 0; i < panels; ++i)
+      length += integral([&](double at) { return path.tip_speed(at); }, static_cast<double>(i) / panels,
+                         static_cast<double>(i + 1) / panels, kAccuracy / panels);
+  }
   return length;
 }
 

@@ -44,9 +44,14 @@ void Planner::push(const kinematics::Move& move) {
   if (has_end_ && differ(end_, move.from)) come_to_rest();
   end_ = move.to;
   has_end_ = true;
-  if (kinematics::moves_independently(machine_, move)) return append_rapid(move);
-  splitter_.take(machine_, move);
-  if (!splitter_.has_more() && move.exact_stop) come_to_rest();
+  const bool is_independent = kinematics::moves_independently(machine_, move);
+  // The times of one joint whose jerk is not limited are those of its line.
+  if (is_independent && (jerk_limiter_ || kinematics::leaves_line(machine_, move))) return append_rapid(move);
+  if (is_independent) come_to_rest();
+  kinematics::Move planned = move;
+  planned.exact_stop = move.exact_stop || is_independent;
+  splitter_.take(machine_, planned);
+  if (!splitter_.has_more() && planned.exact_stop) come_to_rest();
 }
 
 /// Appends a rapid whose joints move independently.

@@ -136,17 +136,34 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::
 
 /// Adds the sweeps along the pieces to what waits, as those of its last stretch.
 void MaterialCheck::append_pieces(bool is_feed) {
+  if (is_feed) append_rapid();
   if (pieces_.empty()) return;
   UncutStretch& stretch = waiting_.back();
   const Vec3 up = frames_[stretch.frame].axes.col(2);
   stretch.rise = up.dot(end_of(pieces_.back().path) - start_of(pieces_.front().path).origin);
   stretch.way = way_taken_;
+  const bool is_in_phases = !is_feed && asks_ && machine_.motion.rapid_motion == kinematics::RapidMotion::Independent;
   for (TipPath& piece : pieces_) {
     stretch.length += length_of(piece.path);
     piece.path = moved(std::move(piece.path), -workpiece_.origin);
-    append_sweeps(piece, is_feed);
+    const std::size_t index = waiting_.size() - 1;
+    if (is_in_phases)
+      rapid_.emplace_back(piece, index);
+    else
+      append_sweeps(piece, cutting_of(is_feed), index);
   }
   way_taken_ += stretch.length;
+  if (stretch.stretch.ends_move || stretch.is_standing) append_rapid();
+}
+
+/// Adds the sweeps of a rapid in which each joint has phases of its own. How deep the cutter goes counts from the
+/// material before all of it: else each phase would meet what the one before has left.
+void MaterialCheck::append_rapid() {
+  if (rapid_.empty()) return;
+  change_cutting(Cutting::InRapid);
+  for (const auto& [piece, stretch] : rapid_) append_sweep(forms_->passing_cutter(), piece, Role::RapidCutter, stretch);
+  for (const auto& [piece, stretch] : rapid_) append_sweeps(piece, Cutting::InRapid, stretch);
+  rapid_.clear();
 }
 
 /// Sets the pieces of a stretch between two path parameters. A long tool needs many of them while its axis turns, but
@@ -234,46 +251,51 @@ void MaterialCheck::append_rest() {
   passed_.clear();
 }
 
-void MaterialCheck::append_sweeps(const TipPath& piece, bool is_feed) {
-  const Cutting cutting = cutting_of(is_feed);
+void MaterialCheck::change_cutting(Cutting cutting) {
   if (cutting != cutting_ || passed_.size() >= kMostPassed) append_rest();
   cutting_ = cutting;
+}
+
+void MaterialCheck::append_sweeps(const TipPath& piece, Cutting cutting, std::size_t stretch) {
+  change_cutting(cutting);
   const RevolvedBody* const cutter = removing_cutter(cutting);
   if (cutter && cutter != forms_->cutter() && may_meet(*cutter, piece.path))
-    passed_.push_back({piece.path, static_cast<stock::CutTag>(waiting_.back().line)});
-  if (!asks_) return append_sweep(cutter, piece, Role::Cut);
-  if (cutting == Cutting::InRapid) append_sweep(forms_->passing_cutter(), piece, Role::RapidCutter);
-  if (cutting == Cutting::Standing) append_sweep(forms_->passing_cutter(), piece, Role::StandingCutter);
-  append_sweep(cutter, piece, Role::Cut);
-  append_sweep(forms_->shank(), piece, Role::Shank);
-  append_sweep(forms_->shank_with_wall(), piece, Role::ShankWall);
-  append_sweep(forms_->holder(), piece, Role::Holder);
-  append_sweep(forms_->holder_with_clearance(), piece, Role::HolderNear);
-  append_sweep(forms_->nose(), piece, Role::Nose);
-  append_sweep(forms_->nose_with_clearance(), piece, Role::NoseNear);
+    passed_.push_back({piece.path, static_cast<stock::CutTag>(waiting_[stretch].line)});
+  if (!asks_) return append_sweep(cutter, piece, Role::Cut, stretch);
+  // append_rapid() asks for all of its pieces first.
+  if (cutting == Cutting::InRapid && rapid_.empty())
+    append_sweep(forms_->passing_cutter(), piece, Role::RapidCutter, stretch);
+  if (cutting == Cutting::Standing) append_sweep(forms_->passing_cutter(), piece, Role::StandingCutter, stretch);
+  append_sweep(cutter, piece, Role::Cut, stretch);
+  append_sweep(forms_->shank(), piece, Role::Shank, stretch);
+  append_sweep(forms_->shank_with_wall(), piece, Role::ShankWall, stretch);
+  append_sweep(forms_->holder(), piece, Role::Holder, stretch);
+  append_sweep(forms_->holder_with_clearance(), piece, Role::HolderNear, stretch);
+  append_sweep(forms_->nose(), piece, Role::Nose, stretch);
+  append_sweep(forms_->nose_with_clearance(), piece, Role::NoseNear, stretch);
 }
 
 /// A cut that is deeper is too deep, mm.
 double MaterialCheck::depth_limit() const { return forms_->tool().max_depth + rim_of(stock_.spacing()); }
 
-void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece, Role role) {
+void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece, Role role, std::size_t stretch) {
   if (!body) return;
   SweepPath path = placed(piece.path, role);
   if (!may_meet(*body, path)) return;
   // With its clearance or its wall, the body that has just been appended.
   const bool is_grown = role == Role::ShankWall || role == Role::HolderNear || role == Role::NoseNear;
-  const bool contains_last = is_grown && !uses_.empty() && uses_.back().stretch + 1 == waiting_.size() &&
+  const bool contains_last = is_grown && !uses_.empty() && uses_.back().stretch == stretch &&
                              uses_.back().from == piece.from &&
                              static_cast<int>(uses_.back().role) + 1 == static_cast<int>(role);
   sweeps_.push_back({.body = body,
                      .path = std::move(path),
-                     .tag = static_cast<stock::CutTag>(waiting_.back().line),
+                     .tag = static_cast<stock::CutTag>(waiting_[stretch].line),
                      .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Find,
                      .side_rim = std::max(skin_, body->maximum_radius() * kRimShare),
-                     .end_rim = role == Role::Cut ? end_rim(piece) : 0,
+                     .end_rim = role == Role::Cut ? end_rim(piece, stretch) : 0,
                      .depth_limit = depth_limit(),
                      .contains_last = contains_last});
-  uses_.push_back({static_cast<std::uint32_t>(waiting_.size() - 1), role, piece.from, piece.to});
+  uses_.push_back({static_cast<std::uint32_t>(stretch), role, piece.from, piece.to});
 }
 
 static bool is_rounded_corner(const kinematics::Path& path) {
@@ -290,8 +312,9 @@ static bool bends(const kinematics::Path& path, double from, double to) {
 
 /// Of a short way in full material only the crescent in front of the body is new: there, half of it counts. But where
 /// the machine turns round a corner, another pass may have gone a little less far.
-double MaterialCheck::end_rim(const TipPath& piece) const {
-  return bends(waiting_.back().stretch.path, piece.from, piece.to) ? skin_ : std::min(skin_, length_of(piece.path) / 2);
+double MaterialCheck::end_rim(const TipPath& piece, std::size_t stretch) const {
+  return bends(waiting_[stretch].stretch.path, piece.from, piece.to) ? skin_
+                                                                     : std::min(skin_, length_of(piece.path) / 2);
 }
 
 /// False only if the body is above the blank all the time, by more than a margin.
@@ -332,6 +355,7 @@ SweepPath MaterialCheck::placed(const SweepPath& tip, Role role) const {
 }
 
 void MaterialCheck::cut_waiting() {
+  append_rapid();
   std::vector<bool> has_cut(waiting_.size());
   if (notes_stretches_) by_stretch_.resize(by_stretch_.size() + waiting_.size());
   if (!sweeps_.empty()) {

@@ -146,14 +146,16 @@ class MaterialCheck {
   void form(const CuttingTool& tool);
   void stand(const running::Event& event, double time, const geometry::Frame& frame);
   void append_pieces(bool is_feed);
+  void append_rapid();
   double depth_limit() const;
-  double end_rim(const TipPath& piece) const;
+  double end_rim(const TipPath& piece, std::size_t stretch) const;
   void show_moments(const motion::Stretch& stretch);
   Cutting cutting_of(bool is_feed) const;
   const solids::RevolvedBody* removing_cutter(Cutting cutting) const;
   void append_rest();
-  void append_sweeps(const TipPath& piece, bool is_feed);
-  void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role);
+  void change_cutting(Cutting cutting);
+  void append_sweeps(const TipPath& piece, Cutting cutting, std::size_t stretch);
+  void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role, std::size_t stretch);
   bool may_meet(const solids::RevolvedBody& body, const stock::SweepPath& path, double margin = 0) const;
   void divide(const motion::Stretch& stretch, double begin, double end);
   void cut_waiting();
@@ -202,11 +204,12 @@ class MaterialCheck {
   std::vector<UncutStretch> waiting_;
   std::vector<stock::Sweep> sweeps_;
   std::vector<SweepUse> uses_;
-  Cutting cutting_ = Cutting::Allowed;  ///< On the last motion.
-  std::vector<PassedPath> passed_;      ///< Since it has been allowed, or not for this reason.
-  std::vector<TipPath> pieces_;         ///< Kept, so that its memory is.
-  double way_taken_ = 0;                ///< Of the tip, mm.
-  std::size_t cut_ = 0;                 ///< Stretches that have been cut.
+  Cutting cutting_ = Cutting::Allowed;                  ///< On the last motion.
+  std::vector<PassedPath> passed_;                      ///< Since it has been allowed, or not for this reason.
+  std::vector<TipPath> pieces_;                         ///< Kept, so that its memory is.
+  std::vector<std::pair<TipPath, std::size_t>> rapid_;  ///< Of the present rapid in phases, each with its stretch.
+  double way_taken_ = 0;                                ///< Of the tip, mm.
+  std::size_t cut_ = 0;                                 ///< Stretches that have been cut.
   std::map<IncidentKey, OpenIncident> open_;
   std::vector<OpenIncident> closed_;  ///< Of the present batch.
   /// Incidents are looked at closely up to this number: each takes some thousand sweeps.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -86,6 +87,19 @@ TEST(Material, RapidsGoWhereTheirJointsLeadThem) {
   bench.machine.motion.rapid_motion = kinematics::RapidMotion::Independent;
   EXPECT_EQ(told(bench.cut(up)), Lines());
   EXPECT_EQ(told(bench.cut(down)), Lines{"E150 4 35.0 Z40.0"});
+}
+
+/// However many phases a rapid has: its depth is that below the material before all of it.
+TEST(Material, RapidsInPhasesAreAsDeepAsTheyGo) {
+  Bench bench;
+  bench.machine.motion.rapid_motion = kinematics::RapidMotion::Independent;
+  for (const std::optional<double> jerk : {std::optional<double>(), std::optional<double>(20'000)}) {
+    for (kinematics::AxisLimits& axis : bench.machine.motion.axes)
+      axis.speed = 100, axis.acceleration = 1000, axis.jerk = jerk;
+    EXPECT_EQ(told(bench.cut("G00 X350 Y150 Z90\nZ30\nZ90\n")), Lines{"E150 4 10.0 Z40.0"});
+    EXPECT_EQ(told(bench.cut("G00 X250 Y150 Z90\nX250 Z5\nX350\nZ90\n")), Lines{"E150 5 35.0 Z40.0"});
+    EXPECT_EQ(told(bench.cut("G00 X285 Y150 Z90\nX315 Z30\nZ90\n")), Lines{"E150 4 10.0 Z40.0"});
+  }
 }
 
 TEST(Material, RapidsAndStoppedSpindlesAreFoundOnShortMotions) {
