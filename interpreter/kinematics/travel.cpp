@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include "interpreter/geometry/cubic.h"
 #include "interpreter/geometry/helix.h"
 #include "interpreter/kinematics/element.h"
 #include "interpreter/kinematics/independent_rapid.h"
@@ -223,25 +224,14 @@ static Range range_through(const std::array<double, 4>& values) {
   const double first = (-11 * p + 18 * q - 9 * r + 2 * s) / 2;
   const double second = 9 * (2 * p - 5 * q + 4 * r - s) / 2;
   const double third = 9 * (-p + 3 * q - 3 * r + s) / 2;
-  Range range{std::min(p, s), std::max(p, s)};
-  const auto look_at = [&, start = p](double t) {
-    if (!(t > 0 && t < 1)) return;
-    const double value = start + t * (first + t * (second + t * third));
-    range.include({value, value});
-  };
-  // Where the derivative first + 2 second t + 3 third t^2 is 0, in the form that cancels nothing.
-  const double discriminant = second * second - 3 * first * third;
-  if (!(discriminant >= 0)) return range;
-  const double root = -(second + std::copysign(std::sqrt(discriminant), second));
-  if (third != 0) look_at(root / (3 * third));
-  if (root != 0) look_at(first / root);
-  return range;
+  return geometry::cubic_range({p, first, second, third}, 0, 1);
 }
 
 /// Returns the extents of the tip in a rapid whose joints move independently.
-static std::array<Range, 3> rapid_extents(const Machine& machine, const Move& rapid, const geometry::Frame& frame) {
+static std::array<Range, 3> rapid_extents(const Machine& machine, const Move& rapid,
+                                          const std::vector<RapidPart>& parts, const geometry::Frame& frame) {
   std::array<Range, 3> all = extents(frame.to_inner(rapid.from.tip), frame.to_inner(rapid.to.tip));
-  for (const RapidPart& part : independent_rapid(machine, rapid)) {
+  for (const RapidPart& part : parts) {
     const MovePath path(machine, part);
     std::array<Range, 3> found;
     if (path.turns()) {
@@ -260,10 +250,10 @@ static std::array<Range, 3> rapid_extents(const Machine& machine, const Move& ra
   return all;
 }
 
-static double rapid_length(const Machine& machine, const Move& rapid) {
+static double rapid_length(const Machine& machine, const std::vector<RapidPart>& parts) {
   constexpr double kAccuracy = 1e-7;  // mm
   double length = 0;
-  for (const RapidPart& part : independent_rapid(machine, rapid)) {
+  for (const RapidPart& part : parts) {
     const MovePath path(machine, part);
     if (path.has_straight_tip()) {
       length += (path.tip(1) - path.tip(0)).norm();
@@ -285,14 +275,17 @@ static bool goes_straight(const Machine& machine, const Move& move) {
 TipTravel tip_travel(const Machine& machine, const Move& move) {
   if (goes_straight(machine, move)) return {(move.to.tip - move.from.tip).norm(), extents(move.from.tip, move.to.tip)};
   if (move.is_arc) return arc_travel(machine, move);
-  if (leaves_line(machine, move)) return {rapid_length(machine, move), rapid_extents(machine, move, {})};
+  if (leaves_line(machine, move)) {
+    const std::vector<RapidPart> parts = independent_rapid(machine, move);
+    return {rapid_length(machine, parts), rapid_extents(machine, move, parts, {})};
+  }
   const MovePath path(machine, move);
   return {integrated_length(path), swing_extents(path, {})};
 }
 
 std::array<Range, 3> tip_extents(const Machine& machine, const Move& move, const geometry::Frame& frame) {
   if (goes_straight(machine, move)) return extents(frame.to_inner(move.from.tip), frame.to_inner(move.to.tip));
-  if (leaves_line(machine, move)) return rapid_extents(machine, move, frame);
+  if (leaves_line(machine, move)) return rapid_extents(machine, move, independent_rapid(machine, move), frame);
   return move.is_arc ? arc_extents(helix_of(move), frame) : swing_extents(MovePath(machine, move), frame);
 }
 

@@ -54,17 +54,19 @@ class PieceHull {
     pieces_.front().core.for_each_edge(use);
   }
 
- private:
-  const PieceInPlace& highest_piece(const geometry::Vec3& n) const {
-    const auto height = [&](const PieceInPlace& piece) { return piece.core.highest(n) + piece.rounding; };
-    return *std::max_element(pieces_.begin(), pieces_.end(),
-                             [&](const PieceInPlace& a, const PieceInPlace& b) { return height(a) < height(b); });
-  }
+  /// The nearest point of one piece.
   static geometry::Vec3 nearest_of(const PieceInPlace& piece, const geometry::Vec3& point) {
     const geometry::Vec3 on_core = piece.core.nearest(point);
     const geometry::Vec3 outwards = point - on_core;
     const double distance = outwards.norm();
     return distance <= piece.rounding ? point : geometry::Vec3(on_core + (piece.rounding / distance) * outwards);
+  }
+
+ private:
+  const PieceInPlace& highest_piece(const geometry::Vec3& n) const {
+    const auto height = [&](const PieceInPlace& piece) { return piece.core.highest(n) + piece.rounding; };
+    return *std::max_element(pieces_.begin(), pieces_.end(),
+                             [&](const PieceInPlace& a, const PieceInPlace& b) { return height(a) < height(b); });
   }
 
   std::vector<PieceInPlace> pieces_;

@@ -381,16 +381,14 @@ class NearFaces {
       if (is_inside && distance > deepest_.depth())
         deepest_ = {.lower = -distance, .upper = -distance, .on_body = point, .on_obstacle = on_surface};
       if (!(distance > 0)) return;
-      point = nearest_of(piece, point + (is_inside ? step : -step) / distance * away);
+      point = detail::PieceHull::nearest_of(piece, point + (is_inside ? step : -step) / distance * away);
     }
   }
 
-  static Vec3 nearest_of(const detail::PieceInPlace& piece, const Vec3& point) {
-    return detail::PieceHull({piece}).nearest(point);
-  }
-
   const detail::PieceInPlace& piece_of(const Vec3& point) const {
-    const auto distance = [&](const detail::PieceInPlace& piece) { return (nearest_of(piece, point) - point).norm(); };
+    const auto distance = [&](const detail::PieceInPlace& piece) {
+      return (detail::PieceHull::nearest_of(piece, point) - point).norm();
+    };
     return *std::min_element(hull_.pieces().begin(), hull_.pieces().end(),
                              [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   }

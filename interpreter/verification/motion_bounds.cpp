@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpreter/geometry/cubic.h"
 #include "interpreter/kinematics/numbers.h"
 
 namespace isocnc::verification {
@@ -35,22 +36,6 @@ static double slope_bound(const Path& path, int first, double from, double to) {
   return is_helix ? std::hypot(around, c(3).norm()) * (1 + 1e-9) : around + c(3).norm();
 }
 
-/// The maximum of a polynomial of third degree.
-static double highest_of_polynomial(const std::array<double, 4>& c, double from, double to) {
-  const auto at = [&](double s) { return c[0] + s * (c[1] + s * (c[2] + s * c[3])); };
-  double highest = std::max(at(from), at(to));
-  const auto look_at = [&](double s) {
-    if (s > from && s < to) highest = std::max(highest, at(s));
-  };
-  // Where the derivative c1 + 2 c2 s + 3 c3 s^2 is 0, in the form that cancels nothing.
-  const double discriminant = c[2] * c[2] - 3 * c[1] * c[3];
-  if (!(discriminant >= 0)) return highest;
-  const double q = -(c[2] + std::copysign(std::sqrt(discriminant), c[2]));
-  if (c[3] != 0) look_at(q / (3 * c[3]));
-  if (q != 0) look_at(c[1] / q);
-  return highest;
-}
-
 /// The maximum of a cos(t) + b sin(t).
 static double highest_of_circle(double a, double b, double from, double to) {
   const double last = std::max(from, to);
@@ -66,7 +51,7 @@ static double highest_of_circle(double a, double b, double from, double to) {
 double highest_along(const Path& path, const Vec3& n, double from, double to) {
   std::array<double, 4> c;
   for (std::size_t i = 0; i < c.size(); ++i) c[i] = n.dot(path.c[i].head<3>());
-  if (path.kind == PathKind::Polynomial) return highest_of_polynomial(c, from, to);
+  if (path.kind == PathKind::Polynomial) return geometry::cubic_range(c, from, to).maximum;
   return c[0] + highest_of_circle(c[1], c[2], path.omega * from, path.omega * to) + std::max(c[3] * from, c[3] * to);
 }
 
