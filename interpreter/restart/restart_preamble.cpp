@@ -176,10 +176,12 @@ class Preamble {
     if (target_.tool_selected) add("M06 " + running::tool_name(target_.tool));
     // A tool change stops the spindle, so a spindle start before it has no effect after it.
     const bool turns = target_.spindle_turns();
+    const double speed = turns ? point_.turning_speed : target_.spindle_speed;
     std::string line;
-    if (target_.spindle_speed > 0) line = "S" + exact(target_.spindle_speed);
+    if (speed > 0) line = "S" + exact(speed);
     if (turns) line += fmt::format("{}M{:02}", line.empty() ? "" : " ", target_.spindle_function);
     if (!line.empty()) add(line);
+    if (target_.spindle_speed != speed) add("S" + exact(target_.spindle_speed));  // For the next M03 or M04.
   }
 
   std::string length(char letter, double mm) const { return letter + coordinate(mm / state_.mm_per_unit()); }

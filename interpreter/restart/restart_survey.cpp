@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "interpreter/geometry/arc.h"
+#include "interpreter/simulation/spindle_turn.h"
 
 namespace isocnc::restart {
 
@@ -82,6 +83,9 @@ RestartSurvey::RestartSurvey(std::string_view text, const running::RunOptions& o
 
 void RestartSurvey::take(const running::Event& event) {
   follow(event);
+  if (const auto* const speed = std::get_if<running::SpindleSpeedEvent>(&event.what)) last_speed_ = speed->speed;
+  spindle_ = simulation::spindle_after(event, spindle_, last_speed_);
+  now_.turning_speed = spindle_.speed;
   if (const auto* const jump = std::get_if<running::JumpEvent>(&event.what); jump != nullptr && jump->taken)
     jumps_.emplace_back(event.line, jump->target_line);
   const auto* const function = std::get_if<running::FunctionEvent>(&event.what);

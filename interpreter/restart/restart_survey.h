@@ -11,6 +11,7 @@
 
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/machine_course.h"
+#include "interpreter/simulation/timing.h"
 
 namespace isocnc::restart {
 
@@ -79,6 +80,7 @@ struct RestartPoint {
   Eigen::AlignedBox3d fed;            ///< Box around the starts and ends of feed moves since then, in that frame.
   bool came_in_feed = false;          ///< The last motion with a length was a feed move: the tool may be in the cut.
   bool waits_at_end = false;          ///< G200 is in force (I.3.12).
+  double turning_speed = 0;           ///< Of the spindle while it turns: an S waits for the next M03 or M04 (I.4.2).
   bool turns = false;                 ///< B or C move somewhere in the program.
   bool continues_motion = false;      ///< Coordinates may follow before any motion G.
   std::vector<running::Event> functions;  ///< User M functions up to the line; the last one of each number.
@@ -144,6 +146,8 @@ class RestartSurvey {
   const simulation::MachineCourse::Listeners to_log_;
   running::RunResult run_;
   RestartPoint now_;  // Facts before the line that the run has reached.
+  simulation::Timing::SpindleMotion spindle_;
+  double last_speed_ = 0;  // The last S.
   RestartPoint point_;
   std::vector<std::uint16_t> traits_;
   std::vector<std::pair<std::size_t, std::size_t>> jumps_;  // Taken jumps, from an IF to a label.
