@@ -112,8 +112,10 @@ VgplValues::MetJumps VgplValues::met_by(const simulation::TakenPath& run) const 
 
 void VgplValues::take(const simulation::TakenPath& run) {
   MetJumps met = met_by(run);
-  if (!met.on_registers.empty())
-    register_jump_ = std::min(met.on_registers.front(), register_jump_.value_or(met.on_registers.front()));
+  for (const std::size_t step : met.on_registers) {
+    const auto [known, is_new] = register_jumps_.emplace(steps_[step].jump.variable, step);
+    if (!is_new) known->second = std::min(known->second, step);
+  }
   close(cells_along(met.jumps));
   runs_.push_back(std::move(met.jumps));
 }
@@ -182,24 +184,37 @@ std::optional<std::size_t> VgplValues::open_jump() const {
   return deepest;
 }
 
+/// The jump of VGPL, if there is one, and the first one of each register, from above. Indices into steps_.
+std::vector<std::size_t> VgplValues::open_jumps() const {
+  std::vector<std::size_t> jumps;
+  for (const auto& [variable, step] : register_jumps_) jumps.push_back(step);
+  std::sort(jumps.begin(), jumps.end());
+  if (const std::optional<std::size_t> jump = open_jump()) jumps.insert(jumps.begin(), *jump);
+  return jumps;
+}
+
+Unverified VgplValues::gap_at(std::size_t step) const {
+  const syntax::Jump& jump = steps_[step].jump;
+  if (compares_vgpl(jump))
+    return {.gap = Gap::OtherPaths, .line = steps_[step].line, .name = {}, .paths = runs_.size()};
+  const std::string name = fmt::format("V{}", jump.variable);
+  return {.gap = Gap::OtherRegisters, .line = steps_[step].line, .name = dialect::GivenName::of({name, name})};
+}
+
 std::vector<Unverified> VgplValues::gaps() const {
   std::vector<Unverified> gaps;
-  if (const std::optional<std::size_t> jump = open_jump())
-    gaps.push_back({.gap = Gap::OtherPaths, .line = steps_[*jump].line, .name = {}, .paths = runs_.size()});
-  if (!register_jump_) return gaps;
-  const FlowStep& step = steps_[*register_jump_];
-  const std::string name = fmt::format("V{}", step.jump.variable);
-  gaps.push_back({.gap = Gap::OtherRegisters, .line = step.line, .name = dialect::GivenName::of({name, name})});
+  for (const std::size_t step : open_jumps()) gaps.push_back(gap_at(step));
   return gaps;
 }
 
 std::vector<simulation::RunFinding> VgplValues::findings() const {
   std::vector<simulation::RunFinding> findings;
-  for (const Unverified& gap : gaps()) {
-    const std::size_t step = gap.gap == Gap::OtherPaths ? *open_jump() : *register_jump_;
+  for (const std::size_t step : open_jumps()) {
+    const Unverified gap = gap_at(step);
     const syntax::Jump& jump = steps_[step].jump;
     findings.push_back({.line = gap.line, .finding = finding_of(gap)});
     findings.back().finding.span = {jump.if_span.begin, jump.target_span.end};
+    if (gap.gap == Gap::OtherRegisters) break;  // One finding says it of all.
   }
   return findings;
 }

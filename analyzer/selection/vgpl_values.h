@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,10 +42,10 @@ class VgplValues {
   void take(const simulation::TakenPath& run);
   /// A value that leads along a path that no run has taken, an integer if possible; none if there is none.
   std::optional<double> next() const;
-  /// The jumps that other values decide otherwise than all runs: the first such of VGPL, and the first of a register
+  /// The jumps that other values decide otherwise than all runs: the first such of VGPL, and the first of the registers
   /// that the run has not assigned, with its line and the span of its IF.
   std::vector<simulation::RunFinding> findings() const;
-  /// The same for a certificate.
+  /// The same for a certificate, with the first jump of each of these registers.
   std::vector<verification::Unverified> gaps() const;
 
  private:
@@ -78,13 +79,16 @@ class VgplValues {
   MetJumps met_by(const simulation::TakenPath& run) const;
   CellSet cells_along(const std::vector<MetJump>& met) const;
   std::optional<std::size_t> open_jump() const;
+  std::vector<std::size_t> open_jumps() const;
+  verification::Unverified gap_at(std::size_t step) const;
 
   std::vector<FlowStep> steps_;
   std::vector<double> constants_;   ///< Ascending.
   std::vector<ValueCell> cells_;    ///< Below the first constant, the constant, above it, and so on.
   std::vector<std::size_t> order_;  ///< The cells as they are tried: integers first, ascending.
   std::vector<std::vector<MetJump>> runs_;
-  std::optional<std::size_t> register_jump_;  ///< The topmost jump on a register that a run has not assigned.
+  /// The topmost jump on each register that a run has not assigned.
+  std::map<int, std::size_t> register_jumps_;
 };
 
 }  // namespace isocnc::selection
