@@ -38,11 +38,10 @@ void TranslationRun::add_frames(CurrentBlock& current) {
     if (role == LocalShift) set_local_shift(current);
     if (role == SetPosition) set_position(current);
     if (role == ClearShift || role == SuspendShift || role == RestoreShift) {
-      if (role == SuspendShift) kept_shift_ = frames_.shift;
       if (role == ClearShift) kept_shift_ = Vec3::Zero();
-      frame_is_wrong_ = false;
-      const Vec3 shift = role == RestoreShift ? kept_shift_ : Vec3::Zero();
-      change_frame([&] { frames_.shift = shift; });
+      const std::optional<Vec3> shift = role == RestoreShift ? kept_shift_ : std::optional<Vec3>(Vec3::Zero());
+      frame_is_wrong_ = !shift;
+      change_frame([&] { frames_.shift = shift.value_or(Vec3::Zero()); });
     }
     if (role == Data) set_data(current);
     if (role == Rotation) set_rotation(current);
@@ -63,6 +62,7 @@ void TranslationRun::apply_refused_frames(CurrentBlock& current) {
     if (role == Compensation || role == CompensationOff) compensation_ = tenths / 10;
   }
   for (const ForeignRole shift : kShifts) frame_is_wrong_ = frame_is_wrong_ || current.has(shift);
+  if (current.has(SetPosition) || current.has(LocalShift)) kept_shift_.reset();
 }
 
 void TranslationRun::end_rotation() {
@@ -123,6 +123,7 @@ void TranslationRun::set_local_shift(const CurrentBlock& current) {
     for (int axis = 0; axis < 3; ++axis)
       if (const ForeignWord* const word = current.find(kFrameAxes[axis])) shift[axis] = length_of(*word);
   });
+  if (is_linuxcnc) kept_shift_ = frames_.shift;
 }
 
 /// G92 of the others: the tool is at these coordinates.
@@ -131,6 +132,7 @@ void TranslationRun::set_position(CurrentBlock& current) {
     report(current, std::move(refusal));
     keep_as_comment(current);
     frame_is_wrong_ = true;
+    kept_shift_.reset();
   };
   const ForeignWord& g92 = *current.find('G');
   if (frames_.rotation) return give_up({Untranslatable::UnknownG, g92.at, {"G92"}});
@@ -143,6 +145,7 @@ void TranslationRun::set_position(CurrentBlock& current) {
     frames_.shift[axis] += place_.at[axis] - length_of(*word);
     place_.at[axis] = length_of(*word);
   }
+  kept_shift_ = frame_is_wrong_ ? std::nullopt : std::optional(frames_.shift);
 }
 
 /// G10 L2 gives a zero point in machine coordinates, G10 L20 by the coordinates that the tool has there.

@@ -94,6 +94,7 @@ void TranslationRun::move_in_machine(CurrentBlock& current) {
     return refuse_motion(current, BlockRefusal{Untranslatable::LostPlace, current.words.front().at, {}});
   std::string words = axis_words(current);
   if (motion_ == 1 && !take_feed(current, words)) return;
+  if (motion_ == 0) apply_feed(current);
   KnownPlace machine = frames_.to_machine(place_);
   mount_frame({});
   write_motion(current, motion_, words);
@@ -161,7 +162,6 @@ void TranslationRun::move_along_arc(CurrentBlock& current) {
       write_turns(current, center, end.at, static_cast<int>(turns), feed);
       words = coordinate(plane.u, end.at[plane.u]) + " " + coordinate(plane.v, end.at[plane.v]) + " " +
               coordinate(plane.normal, end.at[plane.normal]) + center_words(plane, center);
-      if (!now_.inverse_time) feed.clear();
     }
     write_motion(current, motion_, words + feed);
   }
@@ -227,7 +227,8 @@ std::optional<Vec3> TranslationRun::arc_center(CurrentBlock& current, const Vec3
   return center;
 }
 
-/// P of LinuxCNC: whole turns before the last one, which the arc itself makes.
+/// P of LinuxCNC: whole turns before the last one, which the arc itself makes with the `feed` that is left. Under G93
+/// the F of the block is that of all turns together, and each motion gets its part of the time.
 void TranslationRun::write_turns(CurrentBlock& current, const Vec3& center, const Vec3& end, int turns,
                                  std::string& feed) {
   const ForeignPlane& plane = foreign_plane(now_.plane);
@@ -235,7 +236,14 @@ void TranslationRun::write_turns(CurrentBlock& current, const Vec3& center, cons
   const double degrees =
       std::abs(geometry::sweep_deg({center[plane.u] - start[plane.u], center[plane.v] - start[plane.v]},
                                    {end[plane.u] - start[plane.u], end[plane.v] - start[plane.v]}, motion_ == 3));
-  const double rise = (end[plane.normal] - start[plane.normal]) * 360 / (degrees + 360 * (turns - 1));
+  const double all_degrees = degrees + 360 * (turns - 1);
+  const double rise = (end[plane.normal] - start[plane.normal]) * 360 / all_degrees;
+  std::string feed_of_last;
+  if (now_.inverse_time) {
+    const double rate = current.find('F')->value;
+    feed = " F" + written_number(rate * all_degrees / 360);
+    feed_of_last = " F" + written_number(rate * all_degrees / degrees);
+  }
   for (int turn = 1; turn < turns; ++turn) {
     std::string words = coordinate(plane.u, start[plane.u]) + " " + coordinate(plane.v, start[plane.v]);
     const double level = start[plane.normal] + rise * turn;
@@ -244,6 +252,7 @@ void TranslationRun::write_turns(CurrentBlock& current, const Vec3& center, cons
     place_.at[plane.normal] = level;
     if (!now_.inverse_time) feed.clear();
   }
+  feed = feed_of_last;
 }
 
 /// Stores the F of a block, for the next feed move that needs it.

@@ -141,6 +141,7 @@ constexpr ReasonText kReasonTexts[] = {
 
 constexpr Text kRepeated{"{0} (and {1} times more, the last time in line {2})",
                          "{0} (e altre {1} volte, l'ultima alla riga {2})"};
+constexpr Text kRepeatedOnce{"{0} (and once more in line {1})", "{0} (e un'altra volta alla riga {1})"};
 
 }  // namespace
 
@@ -155,6 +156,7 @@ std::string TranslationFinding::message(dialect::Language language) const {
   for (const std::string& value : values) arguments.push_back(value);
   std::string text = fmt::vformat(text_of(reason).in(language), arguments);
   if (repeats == 0) return text;
+  if (repeats == 1) return dialect::format(kRepeatedOnce, language, text, last_line);
   return dialect::format(kRepeated, language, text, repeats, last_line);
 }
 

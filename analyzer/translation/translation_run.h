@@ -206,7 +206,8 @@ class TranslationRun {
   int spindle_ = 5;
   bool length_active_ = false;
   bool length_off_ = false;
-  geometry::Vec3 kept_shift_ = geometry::Vec3::Zero();  // Suspended by G92.2.
+  // What G92.3 brings back, also after G92.2; none where it is not known.
+  std::optional<geometry::Vec3> kept_shift_ = geometry::Vec3::Zero();
   CoordinateFrames frames_;
   KnownPlace place_;
   std::set<int> lost_references_;  // G28 and G30, in tenths, that the program has put elsewhere.

@@ -310,6 +310,27 @@ TEST(Translation, FollowsWhatACommentHasSet) {
             kept("G84 X1 Z-1 R1") + kept("X5") + "G00 X1 Z1\n");
 }
 
+/// G92 keeps its shift for G92.3, whether G92.2 has suspended it or not.
+TEST(Translation, BringsBackTheShiftThatIsInForce) {
+  EXPECT_EQ(translated("G92 X100\nG0 X90\nG92.3\nG0 X110"), "G92 X-100 Y0 Z0\nG00 X90\nG00 X110\n");
+  EXPECT_EQ(translated("G92 X100\nG92.2\nG0 X5\nG92.3\nG0 X110"), "G00 X5\nG92 X-100 Y0 Z0\nG00 X110\n");
+  EXPECT_EQ(translated("G92 X100\nG92.1\nG92.3\nG0 X5"), "G00 X5\n");
+  EXPECT_EQ(translated("G92 X#1\nG92.2\nG0 X5\nG92.3\nG0 X5"),
+            "; NOT TRANSLATED: G92 X#1\nG00 X5\n; NOT TRANSLATED: G0 X5\n");
+}
+
+/// The turns of an arc share the time that G93 gives it: 1080 degrees in half a minute.
+TEST(Translation, DividesTheTimeOfAnArcAmongItsTurns) {
+  EXPECT_EQ(translated("G93\nG2 X0 Y0 I5 J0 P3 F2"),
+            "G93\nG02 X0 Y0 Z0 I5 J0 F6\nG02 X0 Y0 Z0 I5 J0 F6\nG02 X0 Y0 Z0 I5 J0 F6\n");
+  EXPECT_EQ(translated("G93\nG2 X10 Y0 I5 J0 P3 F2"),
+            "G93\nG02 X0 Y0 Z0 I5 J0 F5\nG02 X0 Y0 Z0 I5 J0 F5\nG02 X10 Y0 Z0 I5 J0 F10\n");
+}
+
+TEST(Translation, KeepsTheFeedOfARapidInMachineCoordinates) {
+  EXPECT_EQ(translated("G1 Z1 F300\nG53 G0 Z0 F900\nG0 Z5\nG1 Z-1"), "G01 Z1 F300\nG00 Z0\nG00 Z5\nG01 Z-1 F900\n");
+}
+
 TEST(Translation, EndsCallsThatHaveNoEnd) {
   const TranslationSetup setup = setup_for(SourceControl::Fanuc);
   EXPECT_THAT(findings_text(translate("M98 P1\nM30\nO1\nM98 P1\nM99\n", setup)), HasSubstr("more than 8 deep"));
