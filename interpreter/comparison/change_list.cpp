@@ -31,7 +31,14 @@ std::size_t start_of(const RecordedRun& run, std::size_t begin) {
 }
 
 /// As programs write it; empty for none.
-std::string side_of(const MachineAction& motion) { return motion.side == 0 ? "" : fmt::format("G{}", motion.side); }
+std::string side_of(const MachineAction& motion) {
+  return motion.side == 0 ? "" : fmt::format("G{}{}", motion.side, motion.reduces ? " G39" : "");
+}
+
+/// As programs write it.
+std::string written(const simulation::Timing::SpindleMotion& spindle) {
+  return spindle.function == 5 ? "M05" : fmt::format("S{} M{:02}", shown(spindle.speed), spindle.function);
+}
 
 bool is_same_feed(const MachineAction& a, const MachineAction& b) {
   if (a.is_rapid != b.is_rapid) return false;
@@ -74,9 +81,8 @@ std::string value_of(const RecordedRun& run, const MachineAction& action) {
     case ActionKind::Dwell:
       return shown(action.value) + " s";
     case ActionKind::Spindle:
-      if (action.number == 5) return "M05";
       if (action.number == 0) return "S" + shown(action.value);
-      return fmt::format("S{} M{:02}", shown(action.value), action.number);
+      return written({static_cast<int>(action.number), action.value});
     case ActionKind::Function: {
       const running::FunctionEvent& function = run.functions[action.number];
       std::string text = fmt::format("M{:02}", function.number);
@@ -202,6 +208,7 @@ void ChangeList::compare_feeds(std::size_t i, std::size_t k, const OutsideParts&
   const MachineAction& left = a(i);
   const MachineAction& right = b(k);
   if (!left.is_motion() || !right.is_motion()) return;
+  compare_spindles(i, k);
   if (options_.ignores_feed && left.is_rapid == right.is_rapid) return;
   if (is_same_feed(left, right)) {
     if (!left.is_rapid) close_feed();
@@ -216,8 +223,43 @@ void ChangeList::compare_sides(std::size_t i, std::size_t k) {
   const MachineAction& right = b(k);
   if (!left.has_side || !right.has_side) return;
   const auto is_by_control = [](const MachineAction& motion) { return motion.side != 0 && !motion.is_compensated; };
-  if (left.side == right.side || (!is_by_control(left) && !is_by_control(right))) return close_side();
+  const bool is_same = left.side == right.side && left.reduces == right.reduces;
+  if (is_same || (!is_by_control(left) && !is_by_control(right))) return close_side();
   follow_value(side_, ChangeKind::Function, {{i, i + 1, k, k + 1}, side_of(left), side_of(right)});
+}
+
+void ChangeList::compare_spindles(std::size_t i, std::size_t k) {
+  const MachineAction& left = a(i);
+  const MachineAction& right = b(k);
+  if (left.is_rapid || right.is_rapid) return;
+  if (runs_.a.spindles[left.spindle].motion == runs_.b.spindles[right.spindle].motion) return;
+  if (spindle_stretches_.empty() || spindle_stretches_.back().a_spindle != left.spindle ||
+      spindle_stretches_.back().b_spindle != right.spindle) {
+    spindle_stretches_.push_back({{i, i + 1, k, k + 1}, left.spindle, right.spindle});
+    return;
+  }
+  ActionRanges& at = spindle_stretches_.back().actions;
+  at = {std::min(at.a_begin, i), std::max(at.a_end, i + 1), std::min(at.b_begin, k), std::max(at.b_end, k + 1)};
+}
+
+/// Where the spindle turns otherwise though each S, M03, M04 and M05 is there, as before a tool change, which stops it.
+void ChangeList::name_spindles() {
+  const auto is_named = [&](std::size_t begin, std::size_t end, const ActionSpindle& spindle) {
+    return spindle.cause && begin <= *spindle.cause && *spindle.cause < end;
+  };
+  const std::size_t count = changes_.size();
+  for (const SpindleStretch& stretch : spindle_stretches_) {
+    const ActionSpindle& old_spindle = runs_.a.spindles[stretch.a_spindle];
+    const ActionSpindle& new_spindle = runs_.b.spindles[stretch.b_spindle];
+    bool is_told = false;
+    for (std::size_t i = 0; i < count && !is_told; ++i)
+      is_told = changes_[i].kind == ChangeKind::Speed && (is_named(places_[i].a_begin, places_[i].a_end, old_spindle) ||
+                                                          is_named(places_[i].b_begin, places_[i].b_end, new_spindle));
+    if (is_told) continue;
+    BehaviorChange& change = add(ChangeKind::Speed, stretch.actions);
+    change.old_value = written(old_spindle.motion);
+    change.new_value = written(new_spindle.motion);
+  }
 }
 
 void ChangeList::follow_value(std::optional<OpenValue>& open, ChangeKind kind, OpenValue next) {
@@ -304,6 +346,7 @@ std::vector<BehaviorChange> ChangeList::take() {
   join_paths_beside();
   join_moved_blocks();
   name_exchanged_blocks();
+  name_spindles();
   remove_idle_stops();
   for (auto& [change, place] : operations_) {
     changes_.push_back(std::move(change));
@@ -313,11 +356,19 @@ std::vector<BehaviorChange> ChangeList::take() {
   return std::move(changes_);
 }
 
-/// Where a spindle no longer starts, or starts in one program alone, the M05 after it stops nothing.
+/// Where a spindle no longer starts, or starts in one program alone, the M05 after it stops nothing; nor does one after
+/// motions in which the spindle of the other program stands.
 void ChangeList::remove_idle_stops() {
   const auto is_alone = [&](std::size_t change, bool is_old) {
     const BehaviorChange& speed = changes_[change];
     return speed.kind == ChangeKind::Speed && speed.later == 0 && (is_old ? speed.new_value : speed.old_value).empty();
+  };
+  const auto follows_stillness = [&](std::uint32_t spindle, bool is_old) {
+    return std::any_of(spindle_stretches_.begin(), spindle_stretches_.end(), [&](const SpindleStretch& stretch) {
+      const std::uint32_t other = is_old ? stretch.b_spindle : stretch.a_spindle;
+      return (is_old ? stretch.a_spindle : stretch.b_spindle) == spindle &&
+             (is_old ? runs_.b : runs_.a).spindles[other].motion.function == 5;
+    });
   };
   std::vector<bool> is_idle(changes_.size());
   for (const bool is_old : {true, false}) {
@@ -328,6 +379,10 @@ void ChangeList::remove_idle_stops() {
     for (const auto& [action, change] : alone) {
       std::size_t before = action;
       if (run.actions[action].number != 5) continue;
+      if (run.actions[action].spindle > 0 && follows_stillness(run.actions[action].spindle - 1, is_old)) {
+        is_idle[change] = true;
+        continue;
+      }
       while (before > 0 && run.actions[before - 1].kind != ActionKind::Spindle &&
              run.actions[before - 1].kind != ActionKind::Tool)
         --before;

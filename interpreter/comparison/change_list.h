@@ -50,9 +50,11 @@ class ChangeList {
   /// All of both ranges is the same but for a shift; 0 ends the one before.
   void follow_shift(const ActionRanges& at, const geometry::Vec3& shift);
 
-  /// The next motions that take the place of each other, by their indices in both runs.
+  /// The next motions that take the place of each other, by their indices in both runs: their feeds, and how the
+  /// spindle turns in them.
   void compare_feeds(std::size_t i, std::size_t k);
-  /// G41, G42 or none of these motions. Where the radius of the tool is known, the path itself shows it.
+  /// G41, G42 or none of these motions, with or without G39. Where the radius of the tool is known, the path itself
+  /// shows it.
   void compare_sides(std::size_t i, std::size_t k);
   void compare_feeds_along(const AlignedPiece& piece);
   /// Feeds of motions that do not follow each other in both runs.
@@ -89,6 +91,13 @@ class ChangeList {
     double length = std::numeric_limits<double>::infinity();
   };
 
+  /// Feed moves in which the spindle of one run turns otherwise than that of the other one.
+  struct SpindleStretch {
+    ActionRanges actions;
+    std::uint32_t a_spindle = 0;
+    std::uint32_t b_spindle = 0;
+  };
+
   /// The lines that have made the frames of both runs different; none for what is in force at the start.
   struct FrameCause {
     std::optional<std::size_t> old_line;
@@ -113,6 +122,8 @@ class ChangeList {
   void compare_feeds(std::size_t i, std::size_t k, const OutsideParts& of_a, const OutsideParts& of_b, double length);
   void close(std::optional<OpenValue>& open, ChangeKind kind);
   void follow_value(std::optional<OpenValue>& open, ChangeKind kind, OpenValue next);
+  void compare_spindles(std::size_t i, std::size_t k);
+  void name_spindles();
   void name_frames();
   FrameCause cause_of(const MachineAction& left, const MachineAction& right) const;
   bool has_same_frame(const MachineAction& left, const MachineAction& right) const;
@@ -146,6 +157,7 @@ class ChangeList {
   std::optional<OpenShift> shift_;
   std::optional<OpenValue> feed_;
   std::optional<OpenValue> side_;
+  std::vector<SpindleStretch> spindle_stretches_;
   std::vector<std::pair<std::size_t, std::size_t>> overlaps_;
   std::vector<std::pair<BehaviorChange, ActionRanges>> operations_;
 };

@@ -45,6 +45,12 @@ RecordedRun without_ignored(RecordedRun run, const ComparisonOptions& options) {
   std::vector<std::size_t> kept{0};  // How many of the first actions are kept.
   for (const MachineAction& action : run.actions) kept.push_back(kept.back() + (is_ignored(action) ? 0 : 1));
   for (ActionDecision& decision : run.decisions) decision.action = kept[decision.action];
+  for (ActionSpindle& spindle : run.spindles)
+    if (spindle.cause) spindle.cause = kept[*spindle.cause];
+  if (options.ignores_speed) {
+    run.spindles.resize(1);
+    for (MachineAction& action : run.actions) action.spindle = 0;
+  }
   run.actions.erase(std::remove_if(run.actions.begin(), run.actions.end(), is_ignored), run.actions.end());
   return run;
 }

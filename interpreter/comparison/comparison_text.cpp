@@ -63,6 +63,8 @@ constexpr Text kFrameGoneTurned{"moved by up to {} mm: the frame of old line {},
                                 "spostato fino a {} mm: manca il sistema di riferimento girato della riga {} di prima"};
 constexpr Text kFrameGoneTurnedFar{"moved: the frame of old line {}, which is turned, is missing",
                                    "spostato: manca il sistema di riferimento girato della riga {} di prima"};
+constexpr Text kSpindleStands{"the spindle stands still, was {}", "il mandrino è fermo, era {}"};
+constexpr Text kSpindleTurns{"the spindle turns, {}, stood still before", "il mandrino gira, {}, prima era fermo"};
 constexpr Text kDwell{"dwell of {} instead of {}", "attesa di {} invece di {}"};
 constexpr Text kDwellAdded{"dwell of {} added", "aggiunta un'attesa di {}"};
 constexpr Text kDwellRemoved{"dwell of {} removed", "tolta un'attesa di {}"};
@@ -149,8 +151,9 @@ std::string shape_in_words(const BehaviorChange& change, Language language) {
     return is_one ? std::string(kOtherTurn.in(language)) : dialect::format(kOtherWhole, language, new_count, old_count);
   if (*change.distance == 0) return std::string(kWayBack.in(language));
   const std::string distance = shown_distance(*change.distance);
-  return is_one ? dialect::format(kShape, language, distance)
-                : dialect::format(kOtherCount, language, new_count, old_count, distance);
+  return change.old_motions == change.new_motions
+             ? dialect::format(kShape, language, distance)
+             : dialect::format(kOtherCount, language, new_count, old_count, distance);
 }
 
 std::string end_in_words(const BehaviorChange& change, Language language) {
@@ -178,6 +181,10 @@ std::string exchange_in_words(const BehaviorChange& change, Language language) {
   if (change.old_value.empty()) return dialect::format(kAdded, language, change.new_value);
   if (change.new_value.empty()) return dialect::format(kRemoved, language, change.old_value);
   if (change.kind == ChangeKind::End) return end_in_words(change, language);
+  if (change.kind == ChangeKind::Speed && change.old_motions > 0) {
+    if (change.new_value == "M05") return dialect::format(kSpindleStands, language, change.old_value);
+    if (change.old_value == "M05") return dialect::format(kSpindleTurns, language, change.new_value);
+  }
   return dialect::format(kInstead, language, change.new_value, change.old_value);
 }
 

@@ -21,6 +21,7 @@ class ActionRecorder {
   explicit ActionRecorder(const simulation::TimedMachine& machine) : machine_(machine) {
     run_.machine = machine.motion;
     run_.frames.emplace_back();
+    run_.spindles.emplace_back();
   }
 
   /// `made` is the motion of the event; null if it has none.
@@ -37,7 +38,9 @@ class ActionRecorder {
     spindle_ = turned;
     waiting_speed_ = turned.speed;
     // A tool change stops the spindle by itself.
-    if (std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
+    const bool is_by_tool_change = std::holds_alternative<running::ToolEvent>(timed.event.what);
+    run_.spindles.push_back({turned, run_.actions.size() - (is_by_tool_change ? 1 : 0)});
+    if (is_by_tool_change) return;
     MachineAction& action = append(ActionKind::Spindle);
     action.number = static_cast<std::uint32_t>(turned.function);
     action.value = turned.speed;
@@ -60,6 +63,7 @@ class ActionRecorder {
     action.start = start_;
     action.tool = tool_;
     action.frame = static_cast<std::uint32_t>(run_.frames.size() - 1);
+    action.spindle = static_cast<std::uint32_t>(run_.spindles.size() - 1);
     return action;
   }
 
@@ -96,6 +100,7 @@ class ActionRecorder {
     action.has_side = is_arc || beside_normal > kNoMotion;
     if (!action.has_side || event.compensation.side == 0) return;
     action.side = event.compensation.side > 0 ? 41 : 42;
+    action.reduces = event.compensation.reduces;
     if (tool_ == MachineAction::kNone) return;
     const auto radius = machine_.tool_radii.find(run_.tools[tool_].code);
     action.is_compensated = radius != machine_.tool_radii.end() && radius->second > 0;

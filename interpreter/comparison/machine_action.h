@@ -35,10 +35,12 @@ struct MachineAction {
   std::uint8_t side = 0;
   bool has_side = false;
   bool is_compensated = false;  ///< The radius of the tool is known: `from` and `to` are beside the programmed path.
+  bool reduces = false;         ///< Motion with a side: under G39, too.
   std::uint32_t line = 0;       ///< From 0.
   std::uint32_t tool = kNone;   ///< Index of the mounted tool in RecordedRun::tools; for Tool, of the new one.
   std::uint32_t arc = kNone;    ///< Index in RecordedRun::arcs.
   std::uint32_t frame = 0;      ///< Index in RecordedRun::frames of the frame in force.
+  std::uint32_t spindle = 0;    ///< Index in RecordedRun::spindles of how the spindle turns.
   /// Function: index in RecordedRun::functions. Spindle: 3, 4 or 5; 0 for an S that
   /// waits for the next M03 or M04. Signal: its G. End: Ending, and the error's id.
   std::uint32_t number = 0;
@@ -65,6 +67,12 @@ struct ActionTool {
   double seconds = 0;  ///< That it is mounted, with its tool changes; over all of its uses.
 };
 
+/// How the spindle turns for a while.
+struct ActionSpindle {
+  simulation::Timing::SpindleMotion motion;
+  std::optional<std::size_t> cause;  ///< Index of the action that has made it turn so; none for that of the start.
+};
+
 struct ActionFrame {
   std::size_t line = 0;                          ///< Of the G that brought it into force, from 0.
   geometry::Frame frame;                         ///< In the machine frame.
@@ -84,7 +92,8 @@ struct RecordedRun {
   std::vector<MachineAction> actions;  ///< The last one is End.
   std::vector<ActionArc> arcs;
   std::vector<ActionTool> tools;
-  std::vector<ActionFrame> frames;  ///< The first one is the machine frame.
+  std::vector<ActionFrame> frames;      ///< The first one is the machine frame.
+  std::vector<ActionSpindle> spindles;  ///< The first one is that of the start.
   std::vector<running::FunctionEvent> functions;
   std::vector<ActionDecision> decisions;
   kinematics::Machine machine;

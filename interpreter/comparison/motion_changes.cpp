@@ -20,19 +20,21 @@ class MotionNamer {
   explicit MotionNamer(ChangeList& changes) : changes_(changes), runs_(changes.runs()), options_(changes.options()) {}
 
   /// Names how one motion goes otherwise than the other one, if it does. Both end in the same place but for a shift.
-  void name_way(std::size_t i, std::size_t k, const Vec3& shift) {
+  /// `around` is the shift of what stands around them.
+  void name_way(std::size_t i, std::size_t k, const Vec3& shift, const Vec3& around) {
     if (goes_same_way(runs_, a(i), b(k)) && !starts_elsewhere(i, k, shift)) return;
     const Vec3 at_start = b(k).from.tip - a(i).from.tip;
     const Vec3 at_end = b(k).to.tip - a(i).to.tip;
     const ActionRanges at{i, i + 1, k, k + 1};
     BehaviorChange& change = changes_.add(ChangeKind::Shape, at);
-    change.distance = shown_distance(at, (at_end - at_start).norm() <= options_.tolerance ? at_end : shift);
+    change.distance = shown_distance(at, (at_end - at_start).norm() <= options_.tolerance ? at_end : around);
     if (!change.distance && is_other_way_around(runs_, a(i), b(k))) change.distance = 0;
   }
 
   void name_motions(const MotionBlock& block, const DifferentPart& part) {
     const RunPair motions{block.a, block.b, runs_.tolerance};
     StepGroup group{block, part.actions, {}};
+    Vec3 around = part.before;
     for (const MotionStep& step : block.steps) {
       if (!step.is_in_place) {
         group.steps.push_back(step);
@@ -43,12 +45,14 @@ class MotionNamer {
       const ActionRanges at = actions_of(block, step.motions, part.actions);
       changes_.follow_shift(at, step.shift);
       if (step.kind == MotionStep::Kind::Pair) {
-        if (!has_way) name_way(at.a_begin, at.b_begin, step.shift);
+        if (!has_way) name_closing(block, step, at, around);
         compare_values(block, step.motions.a_begin, step.motions.b_begin);
       } else {
+        if (!has_way) name_way_of_parts(block, step, at);
         same_step(motions, {step.motions.a_begin, step.motions.b_begin}, step.shift,
                   [&](std::size_t i, std::size_t k) { compare_values(block, i, k); });
       }
+      around = step.shift;
     }
     name_group(group, nullptr);
   }
@@ -67,6 +71,36 @@ class MotionNamer {
   void compare_values(const MotionBlock& block, std::size_t i, std::size_t k) {
     compare_feeds(block, i, k);
     changes_.compare_sides(block.a_actions[i], block.b_actions[k]);
+  }
+
+  /// Names how motions go that end in the same place, if they do so otherwise.
+  void name_closing(const MotionBlock& block, const MotionStep& step, const ActionRanges& at, const Vec3& around) {
+    const Vec3 at_start = b(at.b_begin).from.tip - a(at.a_begin).from.tip;
+    const bool starts_together = (at_start - around).norm() <= options_.tolerance;
+    if (starts_together && name_way_of_parts(block, step, at)) return;
+    name_way(at.a_begin, at.b_begin, step.shift, around);
+  }
+
+  /// Joined lines are the same path; their parts may still be further apart than the tolerance. Says whether there are
+  /// such.
+  bool name_way_of_parts(const MotionBlock& block, const MotionStep& step, const ActionRanges& at) {
+    const auto has_parts = [](const std::vector<std::size_t>& firsts, const std::vector<std::size_t>& actions,
+                              std::size_t begin, std::size_t end) {
+      return !std::equal(firsts.begin() + static_cast<std::ptrdiff_t>(begin),
+                         firsts.begin() + static_cast<std::ptrdiff_t>(end),
+                         actions.begin() + static_cast<std::ptrdiff_t>(begin));
+    };
+    const ActionRanges& motions = step.motions;
+    if (!has_parts(block.a_firsts, block.a_actions, motions.a_begin, motions.a_end) &&
+        !has_parts(block.b_firsts, block.b_actions, motions.b_begin, motions.b_end))
+      return false;
+    // Of short motions the wrong ones may have been taken for each other, which is looked into later.
+    constexpr std::size_t kFewParts = 4;
+    if (std::max(at.a_end - at.a_begin, at.b_end - at.b_begin) > kFewParts) return true;
+    constexpr double kWritten = 0.001;  // mm: what the last digit of a coordinate is worth.
+    const std::optional<double> mm = shown_distance(at, step.shift);
+    if (mm && *mm > options_.tolerance + kWritten) changes_.add(ChangeKind::Shape, at).distance = mm;
+    return true;
   }
 
   /// The actions from the first to the last one of some motions.
@@ -244,7 +278,7 @@ class MotionNamer {
     if (!common) return;
     for (const MotionStep& step : group.steps) {
       const auto [i, k] = group.pair(step);
-      name_way(i, k, *common);
+      name_way(i, k, *common, group.steps.front().shift);
     }
   }
 
@@ -336,8 +370,8 @@ class MotionNamer {
 
 }  // namespace
 
-void name_way(ChangeList& changes, std::size_t i, std::size_t k, const Vec3& shift) {
-  MotionNamer(changes).name_way(i, k, shift);
+void name_closing_way(ChangeList& changes, const DifferentPart& part) {
+  MotionNamer(changes).name_way(part.actions.a_end - 1, part.actions.b_end - 1, part.after, part.before);
 }
 
 void name_motions(ChangeList& changes, const MotionBlock& block, const DifferentPart& part) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 #include "interpreter/comparison/change_list.h"
 #include "interpreter/comparison/motion_steps.h"
 
@@ -11,8 +9,8 @@ namespace isocnc::comparison {
 /// else its motions and what the machine does between them.
 void name_part(ChangeList& changes, const DifferentPart& part);
 
-/// Names how one motion goes otherwise than the other one, if it does. Both end in the same place but for a shift.
-void name_way(ChangeList& changes, std::size_t i, std::size_t k, const geometry::Vec3& shift);
+/// Names how one of the motions that close a part goes otherwise than the other one, if it does.
+void name_closing_way(ChangeList& changes, const DifferentPart& part);
 
 /// Names what differs in the motions of a part: where they lead, their paths and their feeds.
 void name_motions(ChangeList& changes, const MotionBlock& block, const DifferentPart& part);

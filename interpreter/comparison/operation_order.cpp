@@ -377,6 +377,8 @@ class OperationSorter {
     }
     for (ActionDecision& decision : ordered.decisions)
       decision.action = index[std::min(decision.action, index.size() - 1)];
+    for (ActionSpindle& spindle : ordered.spindles)
+      if (spindle.cause) spindle.cause = index[*spindle.cause];
     std::stable_sort(
         ordered.decisions.begin(), ordered.decisions.end(),
         [](const ActionDecision& left, const ActionDecision& right) { return left.action < right.action; });

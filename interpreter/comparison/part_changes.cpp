@@ -50,7 +50,7 @@ class PartNamer {
     if (!part.is_closed) return;
     const ActionRanges& at = part.actions;
     changes_.follow_shift({at.a_end - 1, at.a_end, at.b_end - 1, at.b_end}, part.after);
-    comparison::name_way(changes_, at.a_end - 1, at.b_end - 1, part.after);
+    name_closing_way(changes_, part);
     changes_.compare_feeds(at.a_end - 1, at.b_end - 1);
     changes_.compare_sides(at.a_end - 1, at.b_end - 1);
   }

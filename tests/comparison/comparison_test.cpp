@@ -132,6 +132,13 @@ const ComparisonCase kCases[] = {
     {"ArcOfAnotherRadiusInAMovedBlock", kPlunged + "X50\nG03 X60 Y30 R10\nG01 Y60\nG00 Z50\nM02\n",
      kPlunged + "X51\nG03 X61 Y30 R30\nG01 Y60\nG00 Z50\nM02\n",
      "moved 5-8|5-8: moved by X1\nshape 6|6: another path, up to 2.084 mm away\n"},
+    // Of the whole ways, which begin in one place.
+    {"ArcOfAnotherRadiusThatMovesWhatFollows", kPlunged + "G03 X40 Y20 R15.5\nG01 Y60\nX0\nM02\n",
+     kPlunged + "G03 X45 Y20 R40\nG01 Y60\nX0\nM02\n",
+     "moved 5-6|5-6: moved by X5\nshape 5|5: another path, up to 7.661 mm away\n"},
+    {"ArcThatMovesWhatFollowsUpToTheEnd", kPlunged + "G03 X40 Y20 R15.5\nG01 Y60\nX0 Y90\nX7 Y50\nX99\nM02\n",
+     kPlunged + "G03 X45 Y20 R40\nG01 X45 Y60\nX5 Y90\nX12 Y50\nX104\nM02\n",
+     "shape 5|5: another path, up to 7.661 mm away\nmoved 5-9|5-9: moved by X5\n"},
     {"CircleOfAnotherRadiusBesideAFunction", kPlunged + "M08\nG03 X10 Y20 I30 J20\nG01 X20\nM02\n",
      kPlunged + "M09\nG03 X10 Y20 I15 J20\nG01 X20\nM02\n",
      "function 5|5: M09 instead of M08\nshape 6|6: another path, up to 30 mm away\n"},
@@ -298,6 +305,15 @@ const ComparisonCase kCases[] = {
      "speed 2|-: removed: S12000 M03\n"},
     {"SpindleStartAndStopOfTwo", kHead + "M05\nS9000 M03\nX50\nM05\nM02\n", kHead + "X50\nM05\nM02\n",
      "speed 4|-: removed: M05\nspeed 5|-: removed: S9000 M03\n"},
+    // A tool change stops the spindle: each S and M03 is there, and it is cut with a spindle that stands.
+    {"SpindleStartBeforeTheToolChange",
+     kPlunged + "X50\nG00 Z40\nM05\nM06 T101002\nS9000 M03\nG00 X0 Y0\nG01 Z-5 F500\nX90\nG00 Z40\nM05\nM02\n",
+     kPlunged + "X50\nG00 Z40\nM05\nS9000 M03\nM06 T101002\nG00 X0 Y0\nG01 Z-5 F500\nX90\nG00 Z40\nM05\nM02\n",
+     "reordered 8-9|8-9: order changed\nspeed 11-12|11-12: the spindle stands still, was S9000 M03\n"},
+    {"ToolChangeThatStopsTheSpindle", kSquare, square("X100\n", "M06 T101001\nX100\n"),
+     "tool -|5: added: T101001\nspeed 5-8|6-9: the spindle stands still, was S12000 M03\n"},
+    {"ToolChangeThatNoLongerStopsTheSpindle", square("X100\n", "M06 T101001\nX100\n"), kSquare,
+     "tool 5|-: removed: T101001\nspeed 6-9|5-8: the spindle turns, S12000 M03, stood still before\n"},
     {"Tool", kSquare, square("T101001", "T101002"), "tool 1|1: T101002 instead of T101001\n"},
     {"Function", kSquare, square("G00 Z40\nM02", "G00 Z40\nM100 P1=2\nM02"), "function -|10: added: M100 P1=2\n"},
     {"Parameter", kSquare + "", square("G00 Z40\nM02", "G00 Z40\nM100 P1=3\nM02"), "function -|10: added: M100 P1=3\n"},
@@ -610,6 +626,16 @@ std::string fine_path(double step, double height, const std::vector<double>& bum
     program += fmt::format("X{:.3f} Y{:.3f}\n", x, y);
   }
   return program + "G00 Z40\nM02\n";
+}
+
+/// Each corner is half a tolerance off the line between its neighbors, on the other side, and the lines are nearly one
+/// tolerance apart.
+TEST(Comparison, NamesWaysOfLinesThatAreJoinedFromParts) {
+  const std::string old_program = kPlunged + "X40 Y19.96\nX70 Y20\nG00 Z40\nM02\n";
+  const std::string new_program = replaced(kPlunged, "Y20 ", "Y20.09 ") + "X30 Y20.13\nX70 Y20.09\nG00 Z40\nM02\n";
+  EXPECT_EQ(shown(changes_between(old_program, new_program, {.tolerance = 0.1})),
+            "shape 5-6|5-6: another path, up to 0.16 mm away\n");
+  EXPECT_EQ(shown(changes_between(old_program, new_program, {.tolerance = 0.2})), "");
 }
 
 /// With a tolerance of two lines of the path, neighbors of what is missing go along it for a while.

@@ -122,6 +122,8 @@ comparison::RecordedRun tail_of(comparison::RecordedRun run, std::size_t first_l
   run.actions.erase(run.actions.begin(), first);
   std::erase_if(run.decisions, [&](const comparison::ActionDecision& each) { return each.line < first_line; });
   for (comparison::ActionDecision& each : run.decisions) each.action -= before;
+  for (comparison::ActionSpindle& each : run.spindles)
+    each.cause = each.cause && *each.cause >= before ? std::optional(*each.cause - before) : std::nullopt;
   return run;
 }
 
