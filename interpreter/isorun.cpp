@@ -118,6 +118,12 @@ constexpr Text kNoProgram{"--import-tools, --export-tools and --new-machine run 
                           "--import-tools, --export-tools e --new-machine non eseguono programmi, come {}"};
 constexpr Text kCutsNothing{"there is no outline: the program has no feed move with a tool",
                             "non c'è un contorno: il programma non ha movimenti di lavoro con un utensile"};
+constexpr Text kRestartHits{"no safe restart before line {}: on the way, {}",
+                            "nessuna ripresa sicura dalla riga {}: lungo il percorso, {}"};
+constexpr Text kOperationHits{"{} alone is not written: on its way, {}",
+                              "{} da solo non viene scritto: lungo il percorso, {}"};
+constexpr Text kCutsNoMaterial{"{} goes with --verify, --stock-out or --plot FILE.html, which cut the stock",
+                               "{} va con --verify, --stock-out o --plot FILE.html, che tagliano il grezzo"};
 constexpr Text kNoWayAround{"no outline is written: on its way, {}; --clearance sets another height",
                             "il contorno non viene scritto: lungo il percorso, {}; --clearance sceglie un'altra "
                             "quota"};
@@ -202,7 +208,10 @@ std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   if (options.material.window && options.stock_out.ends_with(".stock"))
     return refuse(kPartOfAStock, options.stock_out, options);
   // Cutting takes longer than the rest, and nothing else shows it.
-  outputs.material.is_cut = options.verify || !options.stock_out.empty() || format == plot::PlotFormat::Html;
+  const bool shows_cuts = options.verify || !options.stock_out.empty() || format == plot::PlotFormat::Html;
+  if (!shows_cuts && options.material.resolution) return refuse(kCutsNoMaterial, "--resolution", options);
+  if (!shows_cuts && options.material.window) return refuse(kCutsNoMaterial, "--window", options);
+  outputs.material.is_cut = shows_cuts || !options.sheet.empty();
   if (options.trace == "-" && options.samples == "-") return refuse(kOneStandardOutput, "", options);
   return outputs;
 }
@@ -502,21 +511,86 @@ ExitStatus refuse(const restart::RestartRefusal& refusal, const RunCommandOption
   return refusal.obstacle == restart::RestartObstacle::NoSuchLine ? ExitStatus::Failure : ExitStatus::Findings;
 }
 
+/// An error on the way of a program: what it would hit, for an operator.
+struct WayError {
+  dialect::DiagnosticId id;
+  std::string block;  ///< The text of its line.
+  std::string message;
+};
+
+/// What would stop a program, or be hit on its way, from its start on. `cuts` says whether the stock counts.
+std::vector<WayError> errors_on_the_way(std::string_view program, const RunCommandOptions& options,
+                                        const running::RunOptions& run_options, const RunSettings& settings,
+                                        bool cuts) {
+  const Language language = options.reader_language();
+  RunOutputs outputs;
+  outputs.language = language;
+  outputs.subject.home = settings.machine.setup.home;
+  outputs.subject.scene = settings.scene;
+  if (settings.scene) outputs.subject.origin = verification::first_workpiece_origin(program, run_options);
+  outputs.material.is_cut = cuts;
+  RunReport report(outputs, settings.machine.timed);
+  running::RunOptions trial = run_options;
+  trial.before_block = [&](const running::Block& block) { report.take(block); };
+  const running::RunResult result = run(program, trial, [&](const running::Event& event) { report.take(event); });
+  syntax::LineFinder lines(program);
+  if (result.ending == running::Ending::Error)
+    return {{result.error.id, std::string(lines.line(result.line)), running::error_message(result, language)}};
+  const verification::VerifiedRun verified = report.end_run(program, result);
+  const check::Report shown = selection::shown_run_report(verified.outcome, program, settings.selection);
+  std::vector<WayError> errors;
+  for (const check::LocatedFinding& located : shown.findings) {
+    if (located.severity() != dialect::Severity::Error) continue;
+    const std::string_view line = lines.line(located.line);
+    errors.push_back({located.finding.id, std::string(line), formats::message_of(located, shown, line, language)});
+  }
+  return errors;
+}
+
+/// What a program that holds parts of another one would hit though the other one does not: on the way there. The stock
+/// does not count, since what has been cut before is not known. Empty for nothing.
+std::string obstacle_on_the_way_there(std::string_view program, std::string_view original,
+                                      const RunCommandOptions& options, const running::RunOptions& run_options,
+                                      const RunSettings& settings) {
+  if (!settings.scene) return {};
+  const std::vector<WayError> known = errors_on_the_way(original, options, run_options, settings, false);
+  for (const WayError& error : errors_on_the_way(program, options, run_options, settings, false)) {
+    const bool is_known = std::any_of(known.begin(), known.end(), [&](const WayError& each) {
+      return each.id == error.id && each.block == error.block;
+    });
+    if (!is_known) return error.message;
+  }
+  return {};
+}
+
 ExitStatus restart(const system::SourceFile& source, const RunCommandOptions& options,
-                   const restart::RestartOptions& restart_options) {
+                   const restart::RestartOptions& restart_options, const RunSettings& settings) {
   const auto made = restart::restart_program(source.text(), restart_options);
-  if (const auto* const program = std::get_if<std::string>(&made)) return write_part(*program, source, options);
-  return refuse(std::get<restart::RestartRefusal>(made), options);
+  const auto* const program = std::get_if<std::string>(&made);
+  if (program == nullptr) return refuse(std::get<restart::RestartRefusal>(made), options);
+  const std::string obstacle =
+      obstacle_on_the_way_there(*program, source.text(), options, restart_options.run, settings);
+  if (obstacle.empty()) return write_part(*program, source, options);
+  complain(fmt::format("{}: {}", options.shown_file(),
+                       dialect::format(kRestartHits, options.reader_language(), restart_options.line + 1, obstacle)));
+  return ExitStatus::Findings;
 }
 
 ExitStatus write_operation(const system::SourceFile& source, const RunCommandOptions& options,
-                           const restart::RestartOptions& restart_options, const ToolChoice& choice) {
+                           const restart::RestartOptions& restart_options, const ToolChoice& choice,
+                           const RunSettings& settings) {
   const auto made = restart::operation_program(source.text(), restart_options, choice.tool, choice.change);
-  if (const auto* const program = std::get_if<std::string>(&made)) return write_part(*program, source, options);
-  const auto& refusal = std::get<restart::OperationRefusal>(made);
-  if (refusal.restart) return refuse(*refusal.restart, options);
   const Language language = options.reader_language();
   const std::string tool = running::tool_name(choice.tool);
+  if (const auto* const program = std::get_if<std::string>(&made)) {
+    const std::string obstacle =
+        obstacle_on_the_way_there(*program, source.text(), options, restart_options.run, settings);
+    if (obstacle.empty()) return write_part(*program, source, options);
+    complain(fmt::format("{}: {}", options.shown_file(), dialect::format(kOperationHits, language, tool, obstacle)));
+    return ExitStatus::Findings;
+  }
+  const auto& refusal = std::get<restart::OperationRefusal>(made);
+  if (refusal.restart) return refuse(*refusal.restart, options);
   std::string lines;
   for (const std::size_t line : refusal.changes) lines += fmt::format("{}{}", lines.empty() ? "" : ", ", line + 1);
   std::string why;
@@ -534,25 +608,8 @@ ExitStatus write_operation(const system::SourceFile& source, const RunCommandOpt
 /// What would stop a program, or be hit on its way: the first error, for an operator; empty for none.
 std::string obstacle_on_the_way(std::string_view program, const RunCommandOptions& options,
                                 const running::RunOptions& run_options, const RunSettings& settings) {
-  const Language language = options.reader_language();
-  RunOutputs outputs;
-  outputs.language = language;
-  outputs.subject.home = settings.machine.setup.home;
-  outputs.subject.scene = settings.scene;
-  if (settings.scene) outputs.subject.origin = verification::first_workpiece_origin(program, run_options);
-  outputs.material.is_cut = true;
-  RunReport report(outputs, settings.machine.timed);
-  running::RunOptions trial = run_options;
-  trial.before_block = [&](const running::Block& block) { report.take(block); };
-  const running::RunResult result = run(program, trial, [&](const running::Event& event) { report.take(event); });
-  if (result.ending == running::Ending::Error) return running::error_message(result, language);
-  const verification::VerifiedRun verified = report.end_run(program, result);
-  const check::Report shown = selection::shown_run_report(verified.outcome, program, settings.selection);
-  syntax::LineFinder lines(program);
-  for (const check::LocatedFinding& located : shown.findings)
-    if (located.severity() == dialect::Severity::Error)
-      return formats::message_of(located, shown, lines.line(located.line), language);
-  return {};
+  const std::vector<WayError> errors = errors_on_the_way(program, options, run_options, settings, true);
+  return errors.empty() ? "" : errors.front().message;
 }
 
 ExitStatus write_outline(const system::SourceFile& source, const RunCommandOptions& options,
@@ -620,9 +677,8 @@ std::optional<RunSettings> find_settings(RunCommandOptions& options) {
   configuration::Configuration surrounded = configuration;
   surrounded.machine = machine.machine;
   configuration::Scenes scenes(options.reader_language());
-  RunSettings found_settings{
-      machine.machine, configuration.file, settings.selection, settings.setup,
-      options.restart_at || options.tool || options.source.none ? nullptr : scenes.of(surrounded, program)};
+  RunSettings found_settings{machine.machine, configuration.file, settings.selection, settings.setup,
+                             options.source.none ? nullptr : scenes.of(surrounded, program)};
   const std::vector<std::string> mistakes = scenes.mistakes(options.reader_language());
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
   return mistakes.empty() ? std::optional(std::move(found_settings)) : std::nullopt;
@@ -707,8 +763,8 @@ ExitStatus run_file(RunCommandOptions options) {
     return ExitStatus::Failure;
   }
   const auto& source = std::get<system::SourceFile>(opened);
-  if (operation) return write_operation(source, options, *restart_options, *operation);
-  if (restart_options) return restart(source, options, *restart_options);
+  if (operation) return write_operation(source, options, *restart_options, *operation, *found);
+  if (restart_options) return restart(source, options, *restart_options, *found);
   if (lift) return write_lifted(source, options, *lift, *run_options, *found);
   if (outline_options) return write_outline(source, options, *outline_options, *found);
   outputs->subject = plot_subject(source.text(), machine, options);
@@ -799,8 +855,10 @@ ExitStatus run_main(int argc, char** argv) {
       program.add_flag("--json", options.json, {"The summary as JSON", "Il riassunto in JSON"}).without_exclusions();
   const command_line::ProgramOption verify = program
                                                  .add_flag("--verify", options.verify,
-                                                           {"Print what the machine shows as isolint prints it",
-                                                            "Stampa ciò che la macchina mostra come isolint"})
+                                                           {"Cut the stock, too, and print what the machine shows\n"
+                                                            "as isolint does",
+                                                            "Taglia anche il grezzo, e stampa ciò che la macchina\n"
+                                                            "mostra come isolint"})
                                                  .without_exclusions();
   const command_line::ProgramOption stock_out = program.add_option(
       "--stock-out", options.stock_out, command_line::kFileValue,

@@ -267,6 +267,43 @@ constexpr std::string_view kTwoTools =
     "G00 Z40\n"
     "M02\n";
 
+/// From home around the place X100 Y0 to its work.
+constexpr std::string_view kAroundAPost =
+    "M06 T101001\nS12000 M03\nG00 Y100\nX200\nY0\nZ-2\nG01 X190 F1000\nX180\nG00 Z300\nY100\nM05\nM02\n";
+
+TEST(IsorunRestart, IsNotWrittenWhereItsWayHitsSomething) {
+  const support::TemporaryFolder folder;
+  folder.write("isocnc.json",
+               R"({"machine": {"home": {"z": 400},
+          "tools": [{"head": 1, "holder": 1, "tool": 1, "radius": 5, "length": 100, "shape": "flat"}]},
+      "setups": [{"paths": ["*.iso"], "frame": "machine",
+                  "fixtures": [{"name": "post", "box": [[90, -20, 0], [110, 20, 500]]}]}]})");
+  const std::string program = folder.write("part.iso", std::string(kAroundAPost));
+  EXPECT_EQ(run_command({"isorun", "--verify", program}).status, 0);
+  const CommandResult refused = run_command({"isorun", "--lang", "en", "--restart-at", "8", program});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_THAT(refused.err, HasSubstr("no safe restart before line 8: on the way, the cutter of T101001 hits post"));
+  EXPECT_THAT(run_command({"isorun", "--lang", "it", "--restart-at", "8", program}).err,
+              HasSubstr("nessuna ripresa sicura dalla riga 8: lungo il percorso, "));
+  const CommandResult beside = run_command({"isorun", "--lang", "en", "--restart-at", "4", program});
+  EXPECT_EQ(beside.status, 0) << beside.err;
+}
+
+/// What the program itself hits is known, and no reason to refuse the rest of it.
+TEST(IsorunRestart, IsWrittenWhereOnlyTheProgramItselfHitsSomething) {
+  const support::TemporaryFolder folder;
+  folder.write("isocnc.json",
+               R"({"machine": {"home": {"z": 400},
+          "tools": [{"head": 1, "holder": 1, "tool": 1, "radius": 5, "length": 100, "shape": "flat"}]},
+      "setups": [{"paths": ["*.iso"], "frame": "machine",
+                  "fixtures": [{"name": "bar", "box": [[181, -20, -50], [183, 20, 10]]}]}]})");
+  const std::string program = folder.write("part.iso", std::string(kAroundAPost));
+  EXPECT_EQ(run_command({"isorun", "--verify", program}).status, 1);
+  EXPECT_EQ(run_command({"isorun", "--restart-at", "8", program}).status, 0);
+  EXPECT_EQ(run_command({"isorun", "--tool", "T101001", program}).status, 0);
+}
+
 TEST(IsorunTool, WritesAProgramOfItsOperationAlone) {
   const CommandResult made = restart({"--tool", "T102003"}, kTwoTools);
   EXPECT_EQ(made.err, "");

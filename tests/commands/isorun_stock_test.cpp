@@ -232,6 +232,10 @@ TEST_F(StockOfRuns, RefusesWindowsAndResolutionsThatAreNone) {
         said_of({"--verify", "--resolution", wrong}),
         fmt::format("isorun: --resolution takes a plain number of mm from 0.01 to 100, such as 0.5, not {}\n", wrong));
   EXPECT_EQ(run({"--verify", "--resolution", "100", "first.iso"}).status, 0);
+  EXPECT_EQ(said_of({"--resolution", "0.5"}),
+            "isorun: --resolution goes with --verify, --stock-out or --plot FILE.html, which cut the stock\n");
+  EXPECT_THAT(said_of({"--window", "0,0,9,9", "--sheet", "sheet.html"}),
+              StartsWith("isorun: --window goes with --verify"));
   folder_.write("first.setup.json", R"({"stock": {"box": [[0, 0, -20], [3000, 1500, 0]]}})");
   EXPECT_THAT(said_of({"--verify", "--resolution", "0.01"}), HasSubstr("; 0.2 mm would fit"));
   EXPECT_THAT(said_of({"--stock-out", "left.obj"}), HasSubstr("ends in .stl or .stock"));
@@ -239,6 +243,17 @@ TEST_F(StockOfRuns, RefusesWindowsAndResolutionsThatAreNone) {
               HasSubstr("part.stock: with --window only a part of the blank is cut"));
   folder_.write("first.setup.json", "{}");
   EXPECT_THAT(said_of({"--verify", "--window", "0,0,10,10"}), HasSubstr("--window takes a setup with a stock"));
+}
+
+/// The sheet lists what goes wrong in the stock, and the status says so.
+TEST_F(StockOfRuns, IsCutForASheet) {
+  folder_.write("deep.iso", "M06 T101001\nS12000 M03\nG00 X50 Y50 Z5\nZ-8\nG01 X150 F1000\nG00 Z50\nM05\nM02\n");
+  folder_.write("deep.setup.json", R"({"stock": {"box": [[0, 0, -20], [200, 100, 0]]}, "resolution": 0.5})");
+  EXPECT_EQ(run({"deep.iso"}).status, 0);
+  const CommandResult result = run({"--sheet", "sheet.html", "deep.iso"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("[E150]"));
+  EXPECT_EQ(run({"--sheet", "sheet.html", "first.iso"}).status, 0);
 }
 
 }  // namespace
