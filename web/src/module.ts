@@ -3,6 +3,12 @@
 export type Program = 'isolint' | 'isofmt' | 'isorun' | 'isodiff';
 export type Server = 'isols' | 'isodap';
 
+/** A file that is open; what is written to it goes through `stream_ops`. */
+export interface OpenFile {
+  fd: number;
+  stream_ops: { write(stream: OpenFile, bytes: Int8Array, offset: number, length: number): number };
+}
+
 /** The files that the module sees: in a page they are in memory. */
 export interface Files {
   cwd(): string;
@@ -17,9 +23,9 @@ export interface Files {
   readdir(path: string): string[];
   stat(path: string): { mode: number };
   isDir(mode: number): boolean;
-  open(path: string, flags: string): { fd: number };
-  close(stream: { fd: number }): void;
-  streams: { fd: number }[];
+  open(path: string, flags: string): OpenFile;
+  close(stream: OpenFile): void;
+  streams: OpenFile[];
 }
 
 export interface Module {

@@ -1,5 +1,5 @@
-/** Commands on texts: their standard streams are files in the module's memory. */
-import { run, type Files, type Module, type Program } from './module';
+/** Commands on texts: standard input is a file in the module's memory, and what they write becomes text. */
+import { run, type Files, type Module, type OpenFile, type Program } from './module';
 
 const [input, output, complaints] = ['/isocnc.in', '/isocnc.out', '/isocnc.err'];
 
@@ -23,22 +23,33 @@ export function filesIn(FS: Files, folder = ''): Map<string, Uint8Array> {
 }
 
 /** Makes a standard stream a file. */
-function redirect(module: Module, descriptor: number, path: string, flags: string): void {
+function redirect(module: Module, descriptor: number, path: string, flags: string): OpenFile {
   module.FS.close(module.FS.streams[descriptor]);
-  module.FS.open(path, flags); // Takes the lowest number that is free.
+  return module.FS.open(path, flags); // Takes the lowest number that is free.
+}
+
+/** Makes a standard stream a text, which is returned by the result. Of a file in memory all would be copied again and again as it grows. */
+function collect(module: Module, descriptor: number, path: string): () => string {
+  const utf8 = new TextDecoder('utf-8', { ignoreBOM: true });
+  let text = '';
+  const stream = redirect(module, descriptor, path, 'w');
+  stream.stream_ops = {
+    ...stream.stream_ops,
+    write(_stream, bytes, offset, length) {
+      text += utf8.decode(bytes.subarray(offset, offset + length), { stream: true });
+      return length;
+    },
+  };
+  return () => text + utf8.decode();
 }
 
 /** Runs a command with `text` at its standard input. */
 export function runOnText(module: Module, program: Program, args: readonly string[], text = ''): Outcome {
   const { FS } = module;
   FS.writeFile(input, new TextEncoder().encode(text)); // Much faster than Emscripten's own.
-  FS.writeFile(output, '');
-  FS.writeFile(complaints, '');
   redirect(module, 0, input, 'r');
-  redirect(module, 1, output, 'w');
-  redirect(module, 2, complaints, 'w');
+  const written = collect(module, 1, output);
+  const complained = collect(module, 2, complaints);
   const status = run(module, program, args);
-  const utf8 = new TextDecoder('utf-8', { ignoreBOM: true });
-  const [written, complained] = [output, complaints].map((path) => utf8.decode(FS.readFile(path)));
-  return { status, output: written, complaints: complained };
+  return { status, output: written(), complaints: complained() };
 }
