@@ -26,8 +26,8 @@ static constexpr Text kRight = {"Right:", "Giusto:"};
 /// Such as `warning`; `info, off by default`; `warning, reported by isorun and isolint --verify`.
 static std::string severity_text(const DiagnosticDef& def, Language language) {
   static constexpr Text kOff = {", off by default", ", disattivata di norma"};
-  static constexpr Text kRuns = {", reported by isorun and isolint --verify",
-                                 ", segnalato da isorun e isolint --verify"};
+  static constexpr Text kRuns = {", reported by isolint --verify and isorun --verify",
+                                 ", segnalato da isolint --verify e isorun --verify"};
   return fmt::format("{}{}{}", dialect::severity_name(def.severity, language), def.is_off ? kOff.in(language) : "",
                      def.is_reported_by_runs() ? kRuns.in(language) : "");
 }

@@ -1105,7 +1105,7 @@ static void add_lint(std::vector<Key>& keys) {
   add_house_rules(keys);
   keys.push_back({.path = "lint.files",
                   .kind = KeyKind::Objects,
-                  .documentation = {"What holds for some programs alone; the later outweighs the earlier.",
+                  .documentation = {"What holds for some programs alone; a later entry overrides an earlier one.",
                                     "Ciò che vale solo per alcuni programmi; conta di più quello che viene dopo."},
                   .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.lint.files; }});
   keys.push_back(
