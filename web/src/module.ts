@@ -14,7 +14,8 @@ export interface Files {
   cwd(): string;
   chdir(path: string): void;
   mkdirTree(path: string): void;
-  writeFile(path: string, content: string | Uint8Array): void;
+  /** With `canOwn` the file keeps these bytes instead of a copy. */
+  writeFile(path: string, content: string | Uint8Array, options?: { canOwn: boolean }): void;
   readFile(path: string): Uint8Array;
   readFile(path: string, options: { encoding: 'utf8' }): string;
   unlink(path: string): void;
