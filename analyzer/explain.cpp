@@ -23,7 +23,7 @@ static constexpr Text kSection = {"specification", "specifica"};
 static constexpr Text kWrong = {"Wrong:", "Sbagliato:"};
 static constexpr Text kRight = {"Right:", "Giusto:"};
 
-/// Such as `warning`; `info, off by default`; `warning, reported by isorun and isolint --verify`.
+/// Such as `warning`; `info, off by default`; `warning, reported by isolint --verify and isorun --verify`.
 static std::string severity_text(const DiagnosticDef& def, Language language) {
   static constexpr Text kOff = {", off by default", ", disattivata di norma"};
   static constexpr Text kRuns = {", reported by isolint --verify and isorun --verify",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -244,18 +245,20 @@ void ChangeList::compare_spindles(std::size_t i, std::size_t k) {
 
 /// Where the spindle turns otherwise though each S, M03, M04 and M05 is there, as before a tool change, which stops it.
 void ChangeList::name_spindles() {
-  const auto is_named = [&](std::size_t begin, std::size_t end, const ActionSpindle& spindle) {
-    return spindle.cause && begin <= *spindle.cause && *spindle.cause < end;
+  std::set<std::size_t> named_in_a;  // The actions that have a name.
+  std::set<std::size_t> named_in_b;
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    if (changes_[i].kind != ChangeKind::Speed) continue;
+    for (std::size_t k = places_[i].a_begin; k < places_[i].a_end; ++k) named_in_a.insert(k);
+    for (std::size_t k = places_[i].b_begin; k < places_[i].b_end; ++k) named_in_b.insert(k);
+  }
+  const auto is_named = [](const ActionSpindle& spindle, const std::set<std::size_t>& named) {
+    return spindle.cause && named.contains(*spindle.cause);
   };
-  const std::size_t count = changes_.size();
   for (const SpindleStretch& stretch : spindle_stretches_) {
     const ActionSpindle& old_spindle = runs_.a.spindles[stretch.a_spindle];
     const ActionSpindle& new_spindle = runs_.b.spindles[stretch.b_spindle];
-    bool is_told = false;
-    for (std::size_t i = 0; i < count && !is_told; ++i)
-      is_told = changes_[i].kind == ChangeKind::Speed && (is_named(places_[i].a_begin, places_[i].a_end, old_spindle) ||
-                                                          is_named(places_[i].b_begin, places_[i].b_end, new_spindle));
-    if (is_told) continue;
+    if (is_named(old_spindle, named_in_a) || is_named(new_spindle, named_in_b)) continue;
     BehaviorChange& change = add(ChangeKind::Speed, stretch.actions);
     change.old_value = written(old_spindle.motion);
     change.new_value = written(new_spindle.motion);
@@ -363,23 +366,22 @@ void ChangeList::remove_idle_stops() {
     const BehaviorChange& speed = changes_[change];
     return speed.kind == ChangeKind::Speed && speed.later == 0 && (is_old ? speed.new_value : speed.old_value).empty();
   };
-  const auto follows_stillness = [&](std::uint32_t spindle, bool is_old) {
-    return std::any_of(spindle_stretches_.begin(), spindle_stretches_.end(), [&](const SpindleStretch& stretch) {
-      const std::uint32_t other = is_old ? stretch.b_spindle : stretch.a_spindle;
-      return (is_old ? stretch.a_spindle : stretch.b_spindle) == spindle &&
-             (is_old ? runs_.b : runs_.a).spindles[other].motion.function == 5;
-    });
-  };
   std::vector<bool> is_idle(changes_.size());
   for (const bool is_old : {true, false}) {
     const RecordedRun& run = is_old ? runs_.a : runs_.b;
+    std::set<std::uint32_t> beside_stillness;  // How it turns while that of the other program stands.
+    for (const SpindleStretch& stretch : spindle_stretches_) {
+      const std::uint32_t other = is_old ? stretch.b_spindle : stretch.a_spindle;
+      if ((is_old ? runs_.b : runs_.a).spindles[other].motion.function == 5)
+        beside_stillness.insert(is_old ? stretch.a_spindle : stretch.b_spindle);
+    }
     std::map<std::size_t, std::size_t> alone;  // By the action.
     for (std::size_t i = 0; i < changes_.size(); ++i)
       if (is_alone(i, is_old)) alone[is_old ? places_[i].a_begin : places_[i].b_begin] = i;
     for (const auto& [action, change] : alone) {
       std::size_t before = action;
       if (run.actions[action].number != 5) continue;
-      if (run.actions[action].spindle > 0 && follows_stillness(run.actions[action].spindle - 1, is_old)) {
+      if (run.actions[action].spindle > 0 && beside_stillness.contains(run.actions[action].spindle - 1)) {
         is_idle[change] = true;
         continue;
       }

@@ -271,14 +271,18 @@ constexpr std::string_view kTwoTools =
 constexpr std::string_view kAroundAPost =
     "M06 T101001\nS12000 M03\nG00 Y100\nX200\nY0\nZ-2\nG01 X190 F1000\nX180\nG00 Z300\nY100\nM05\nM02\n";
 
+/// The file of that program, in a setup with a fixture.
+std::string around_a_post(const support::TemporaryFolder& folder, std::string_view fixture) {
+  constexpr std::string_view kShop = R"({"machine": {"home": {"z": 400},
+      "tools": [{"head": 1, "holder": 1, "tool": 1, "radius": 5, "length": 100, "shape": "flat"}]},
+      "setups": [{"paths": ["*.iso"], "frame": "machine", "fixtures": [)";
+  folder.write("isocnc.json", std::string(kShop) + std::string(fixture) + "]}]}");
+  return folder.write("part.iso", std::string(kAroundAPost));
+}
+
 TEST(IsorunRestart, IsNotWrittenWhereItsWayHitsSomething) {
   const support::TemporaryFolder folder;
-  folder.write("isocnc.json",
-               R"({"machine": {"home": {"z": 400},
-          "tools": [{"head": 1, "holder": 1, "tool": 1, "radius": 5, "length": 100, "shape": "flat"}]},
-      "setups": [{"paths": ["*.iso"], "frame": "machine",
-                  "fixtures": [{"name": "post", "box": [[90, -20, 0], [110, 20, 500]]}]}]})");
-  const std::string program = folder.write("part.iso", std::string(kAroundAPost));
+  const std::string program = around_a_post(folder, R"({"name": "post", "box": [[90, -20, 0], [110, 20, 500]]})");
   EXPECT_EQ(run_command({"isorun", "--verify", program}).status, 0);
   const CommandResult refused = run_command({"isorun", "--lang", "en", "--restart-at", "8", program});
   EXPECT_EQ(refused.status, 1);
@@ -293,12 +297,7 @@ TEST(IsorunRestart, IsNotWrittenWhereItsWayHitsSomething) {
 /// What the program itself hits is known, and no reason to refuse the rest of it.
 TEST(IsorunRestart, IsWrittenWhereOnlyTheProgramItselfHitsSomething) {
   const support::TemporaryFolder folder;
-  folder.write("isocnc.json",
-               R"({"machine": {"home": {"z": 400},
-          "tools": [{"head": 1, "holder": 1, "tool": 1, "radius": 5, "length": 100, "shape": "flat"}]},
-      "setups": [{"paths": ["*.iso"], "frame": "machine",
-                  "fixtures": [{"name": "bar", "box": [[181, -20, -50], [183, 20, 10]]}]}]})");
-  const std::string program = folder.write("part.iso", std::string(kAroundAPost));
+  const std::string program = around_a_post(folder, R"({"name": "bar", "box": [[181, -20, -50], [183, 20, 10]]})");
   EXPECT_EQ(run_command({"isorun", "--verify", program}).status, 1);
   EXPECT_EQ(run_command({"isorun", "--restart-at", "8", program}).status, 0);
   EXPECT_EQ(run_command({"isorun", "--tool", "T101001", program}).status, 0);
