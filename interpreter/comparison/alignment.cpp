@@ -39,6 +39,14 @@ bool ends_together(const RunPair& runs, const MachineAction& a, const MachineAct
   return is_near(a.to, b.to, shift, runs.tolerance);
 }
 
+bool ends_where_it_did(const RunPair& runs, const MachineAction& a, const MachineAction& b, const Vec3& before,
+                       const Vec3& after) {
+  constexpr double kFarApart = 4;  // Of a row of short motions, each moved otherwise, one may end in place by chance.
+  const bool is_clear = (a.is_rapid && b.is_rapid) ||
+                        std::min(before.squaredNorm(), after.squaredNorm()) > std::pow(kFarApart * runs.tolerance, 2);
+  return is_clear && ends_together(runs, a, b, Vec3::Zero());
+}
+
 bool is_same_effect(const RunPair& runs, const MachineAction& a, const MachineAction& b) {
   if (a.kind != b.kind) return false;
   constexpr double kSameValue = 1e-6;

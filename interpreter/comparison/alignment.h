@@ -64,6 +64,11 @@ bool is_same_effect(const RunPair& runs, const MachineAction& a, const MachineAc
 /// Whether two motions end in the same place.
 bool ends_together(const RunPair& runs, const MachineAction& a, const MachineAction& b, const geometry::Vec3& shift);
 
+/// Whether two motions between others that are shifted end in one place nevertheless, as a retract between two cuts
+/// that are deeper.
+bool ends_where_it_did(const RunPair& runs, const MachineAction& a, const MachineAction& b,
+                       const geometry::Vec3& before, const geometry::Vec3& after);
+
 /// Whether one motion goes where the other one does, from its start to its end, when it is shifted by what lies between
 /// their starts and, more and more, by what lies between their ends. Where both are the same, that is the whole path. A
 /// line goes the same way as any other one; an arc the other way around, of another radius or in place of a line does

@@ -17,7 +17,8 @@ static float replacement_cost(const RunPair& runs, const MachineAction& a, const
   if (a.kind != b.kind) return kNever;
   if (!a.is_motion()) return is_same_effect(runs, a, b) ? 0.F : 1.F;
   constexpr float kOtherWay = 0.5F;
-  if (ends_together(runs, a, b, before) || ends_together(runs, a, b, after))
+  if (ends_together(runs, a, b, before) || ends_together(runs, a, b, after) ||
+      ends_where_it_did(runs, a, b, before, after))
     return goes_same_way(runs, a, b) ? 0.F : kOtherWay;
   const Vec3 other_way = (b.to.tip - b.from.tip) - (a.to.tip - a.from.tip);
   // The same way elsewhere: the retract after the last hole.

@@ -96,7 +96,8 @@ class LineJoiner {
   }
 
   float pair_cost(const MachineAction& a, const MachineAction& b) const {
-    if (ends_together(runs_, a, b, part_.before) || ends_together(runs_, a, b, part_.after))
+    if (ends_together(runs_, a, b, part_.before) || ends_together(runs_, a, b, part_.after) ||
+        ends_where_it_did(runs_, a, b, part_.before, part_.after))
       return goes_same_way(runs_, a, b) ? 0.F : 0.5F;
     const double distance = (b.to.tip - a.to.tip - part_.before).norm();
     const double length = 1 + (a.to.tip - a.from.tip).norm() + (b.to.tip - b.from.tip).norm();
@@ -238,12 +239,23 @@ class StepMaker {
            ends_together(runs_, runs_.a.actions[step.motions.a_begin], runs_.b.actions[step.motions.b_begin], shift);
   }
 
-  /// Decides which steps from `first` on are in place: with the shift before them, and the last ones with that after.
+  /// Decides which steps from `first` on are in place: with the shift before them, the last ones with that after, and
+  /// the others where they end in one place, as a retract between two cuts that are deeper.
   void place(std::size_t first, const Vec3& after) {
-    for (std::size_t i = first; i < steps_.size(); ++i) steps_[i].is_in_place = ends_in_place(steps_[i], shift_);
-    for (std::size_t i = steps_.size(); i > first && ends_in_place(steps_[i - 1], after); --i) {
-      steps_[i - 1].is_in_place = true;
-      steps_[i - 1].shift = after;
+    std::size_t last = steps_.size();
+    while (last > first && ends_in_place(steps_[last - 1], after)) --last;
+    for (std::size_t i = first; i < steps_.size(); ++i) {
+      MotionStep& step = steps_[i];
+      const Vec3 shift = i < last ? shift_ : after;
+      step.is_in_place = ends_in_place(step, shift);
+      if (step.is_in_place) {
+        step.shift = shift;
+      } else if (step.kind == MotionStep::Kind::Pair &&
+                 ends_where_it_did(runs_, runs_.a.actions[step.motions.a_begin], runs_.b.actions[step.motions.b_begin],
+                                   shift_, after)) {
+        step.is_in_place = true;
+        step.shift = Vec3::Zero();
+      }
     }
     shift_ = after;
   }

@@ -55,6 +55,14 @@ std::string faces(const std::string& zero) {
          "G29 X300 C60\nG00 X100 Y0\nG01 Z0\nX80\nG27\nG92 X0 Y0 Z0\nG00 X0 Y0 Z80\nX9\nM02\n";
 }
 
+/// A square that is cut in passes of these depths, with a retract after each: its lines are 7, from line 3 on.
+std::string passes(const std::vector<double>& depths) {
+  std::string program = "M06 T101001\nS12000 M03\n";
+  for (const double z : depths)
+    program += fmt::format("G00 X0 Y0 Z2\nG01 Z{} F500\nX100 Y0 F2000\nX100 Y50\nX0 Y50\nX0 Y0\nG00 Z2\n", -z);
+  return program + "G00 Z50\nM05\nM02\n";
+}
+
 /// Operations on parts of a table, each by its tool: its lines are 9, from its tool change to its M05.
 std::string operations(const std::string& tools) {
   std::string program;
@@ -98,6 +106,11 @@ const ComparisonCase kCases[] = {
      kHead + "G91 G01 X100 F500\nY-50\nX-100\nY50\nG90\nX30\nM02\n", "moved 5-6|5-6: moved by Y-100\n"},
     {"LastMotion", kSquare, square("G00 Z40\nM02", "G00 Z30\nM02"), "moved 9|9: moved by Z-10\n"},
     {"Depth", kSquare, square("Z-5 ", "Z-5.2 "), "moved 4-8|4-8: moved by Z-0.2\n"},
+    // The retract between two passes is where it was.
+    {"PassesByTheSame", passes({1, 2, 3}), passes({1.1, 2.1, 3.1}),
+     "moved 4-8|4-8: moved by Z-0.1\nmoved 11-15|11-15: moved by Z-0.1\nmoved 18-22|18-22: moved by Z-0.1\n"},
+    {"PassesMoreAndMore", passes({1, 2, 3}), passes({1.02, 2.04, 3.06}),
+     "moved 4-8|4-8: moved by Z-0.02\nmoved 11-15|11-15: moved by Z-0.04\nmoved 18-22|18-22: moved by Z-0.06\n"},
     {"IncrementMovesWhatFollows", kRow, replaced(kRow, "G00 Z3\nX20\n", "G00 Z3\nX21\n"),
      "moved 6-11|6-11: moved by X1\n"},
     {"Zero", "M06 T101001\nG92 X5 Y0 Z0\nG00 X10\nY10\nX20\nY50\nM02\n",
