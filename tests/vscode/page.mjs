@@ -65,7 +65,7 @@ export async function openPage() {
   const browser = await requireFromExtension('playwright-core').chromium.launch({
     executablePath: chromium,
     args: ['--no-sandbox', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-      '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage'],
+      '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing', '--disable-dev-shm-usage'],
     timeout: patience,
   });
   try {
