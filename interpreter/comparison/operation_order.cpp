@@ -17,7 +17,7 @@ namespace {
 /// Compared with each other, more would take too long.
 constexpr std::size_t kMaxOperations = 2000;
 
-/// From a tool change to the next one or to the end; the action that ends the run is in none.
+/// From a tool change to the next one or to the epilogue.
 struct ComparedOperation {
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -26,9 +26,10 @@ struct ComparedOperation {
   std::size_t partner = kNone;  ///< Index of the same operation of the other run.
 };
 
-std::vector<ComparedOperation> operations_of(const RecordedRun& run) {
+/// The epilogue, the last actions, is in none of them.
+std::vector<ComparedOperation> operations_of(const RecordedRun& run, std::size_t epilogue) {
   std::vector<ComparedOperation> operations;
-  const std::size_t last = run.actions.size() - 1;
+  const std::size_t last = run.actions.size() - epilogue;
   for (std::size_t i = 0; i < last; ++i)
     if (run.actions[i].kind == ActionKind::Tool) operations.push_back({i, last});
   for (std::size_t i = 1; i < operations.size(); ++i) operations[i - 1].end = operations[i].begin;
@@ -49,23 +50,62 @@ std::string tool_before(const RecordedRun& run, const std::vector<ComparedOperat
   return uses < 2 ? name : name + "@" + std::to_string(run.actions[operations[index - 1].begin].line + 1);
 }
 
+/// How many actions both runs end with that are no motions, as M05 and M02; 1 where the runs end differently.
+std::size_t common_epilogue(const RunPair& runs) {
+  const std::size_t fewer = std::min(runs.a.actions.size(), runs.b.actions.size());
+  std::size_t count = 0;
+  while (count < fewer) {
+    const MachineAction& left = runs.a.actions[runs.a.actions.size() - 1 - count];
+    const MachineAction& right = runs.b.actions[runs.b.actions.size() - 1 - count];
+    if (left.is_motion() || left.kind == ActionKind::Tool || left.kind != right.kind ||
+        !is_same_effect(runs, left, right))
+      break;
+    ++count;
+  }
+  return std::max<std::size_t>(count, 1);
+}
+
 /// Finds which operations of two runs belong together, and brings them into one order.
 class OperationSorter {
  public:
-  OperationSorter(const RunPair& runs, const ComparisonOptions& options)
-      : runs_(runs), options_(options), of_a_(operations_of(runs.a)), of_b_(operations_of(runs.b)) {}
+  OperationSorter(const RunPair& runs, const ComparisonOptions& options, std::size_t epilogue)
+      : runs_(runs),
+        options_(options),
+        epilogue_(epilogue),
+        of_a_(operations_of(runs.a, epilogue)),
+        of_b_(operations_of(runs.b, epilogue)) {}
+
+  /// Too many are not compared with each other.
+  bool are_few() const { return of_a_.size() <= kMaxOperations && of_b_.size() <= kMaxOperations; }
+
+  /// Pairs operations that do the same: those at both ends as they stand, the others wherever they are. Returns how
+  /// many are left without a partner.
+  std::size_t pair_exact() {
+    const std::size_t fewer = std::min(of_a_.size(), of_b_.size());
+    std::size_t first = 0;
+    while (first < fewer && pair_if_same(first, first)) ++first;
+    for (std::size_t last = 1; last + first <= fewer && pair_if_same(of_a_.size() - last, of_b_.size() - last);) ++last;
+    std::map<std::pair<execution::ToolCode, std::size_t>, std::vector<std::size_t>> known;
+    for (std::size_t k = 0; k < of_b_.size(); ++k)
+      if (of_b_[k].partner == ComparedOperation::kNone)
+        known[{tool_at(runs_.b, of_b_[k]), of_b_[k].end - of_b_[k].begin}].push_back(k);
+    for (std::size_t i = 0; i < of_a_.size(); ++i) {
+      if (of_a_[i].partner != ComparedOperation::kNone) continue;
+      for (const std::size_t k : known[{tool_at(runs_.a, of_a_[i]), of_a_[i].end - of_a_[i].begin}])
+        if (pair_if_same(i, k)) break;
+    }
+    return alone(of_a_).size() + alone(of_b_).size();
+  }
 
   std::optional<OrderedRuns> sort() {
-    if (of_a_.size() > kMaxOperations || of_b_.size() > kMaxOperations) return std::nullopt;
-    pair_exact();
     if (!pair_rest()) return std::nullopt;
     const std::vector<bool> stays = staying();
     // Runs are copied only where there is something to tell.
     const bool is_same_order = std::find(stays.begin(), stays.end(), false) == stays.end() && alone(of_b_).empty();
     if (is_same_order) return std::nullopt;
     OrderedRuns ordered{.a = runs_.a, .b = runs_.b, .changes = {}};
-    ordered.a.actions = {runs_.a.actions.begin(), runs_.a.actions.begin() + first(of_a_)};
-    ordered.b.actions = {runs_.b.actions.begin(), runs_.b.actions.begin() + first(of_b_)};
+    ordered.a.actions = {runs_.a.actions.begin(), runs_.a.actions.begin() + prologue(runs_.a, of_a_)};
+    ordered.b.actions = {runs_.b.actions.begin(), runs_.b.actions.begin() + prologue(runs_.b, of_b_)};
     std::vector<std::size_t> place_of_a(of_a_.size() + 1);  // Where each begins now.
     std::vector<std::size_t> place_of_b(of_b_.size() + 1);
     for (std::size_t i = 0; i < of_a_.size(); ++i) {
@@ -96,8 +136,9 @@ class OperationSorter {
  private:
   using Difference = std::vector<MachineAction>::difference_type;
 
-  static Difference first(const std::vector<ComparedOperation>& operations) {
-    return static_cast<Difference>(operations.empty() ? 0 : operations[0].begin);
+  /// How many actions come before the first operation.
+  Difference prologue(const RecordedRun& run, const std::vector<ComparedOperation>& operations) const {
+    return static_cast<Difference>(operations.empty() ? run.actions.size() - epilogue_ : operations[0].begin);
   }
 
   /// Whether both do the same, but for where the axes stand that the way there leaves where they are.
@@ -130,23 +171,6 @@ class OperationSorter {
            is_equal(one.from.c, one.to.c, other.from.c, other.to.c);
   }
 
-  /// Pairs operations that do the same: those at both ends as they stand, the others wherever they are.
-  void pair_exact() {
-    const std::size_t fewer = std::min(of_a_.size(), of_b_.size());
-    std::size_t first = 0;
-    while (first < fewer && pair_if_same(first, first)) ++first;
-    for (std::size_t last = 1; last + first <= fewer && pair_if_same(of_a_.size() - last, of_b_.size() - last);) ++last;
-    std::map<std::pair<execution::ToolCode, std::size_t>, std::vector<std::size_t>> known;
-    for (std::size_t k = 0; k < of_b_.size(); ++k)
-      if (of_b_[k].partner == ComparedOperation::kNone)
-        known[{tool_at(runs_.b, of_b_[k]), of_b_[k].end - of_b_[k].begin}].push_back(k);
-    for (std::size_t i = 0; i < of_a_.size(); ++i) {
-      if (of_a_[i].partner != ComparedOperation::kNone) continue;
-      for (const std::size_t k : known[{tool_at(runs_.a, of_a_[i]), of_a_[i].end - of_a_[i].begin}])
-        if (pair_if_same(i, k)) break;
-    }
-  }
-
   bool pair_if_same(std::size_t i, std::size_t k) {
     const ComparedOperation& left = of_a_[i];
     const ComparedOperation& right = of_b_[k];
@@ -171,11 +195,12 @@ class OperationSorter {
 
   /// Whether an operation that only one run has is missing in the other one, and not only its tool change: then what
   /// comes before it would have its actions there.
+  /// `prologue` is how many actions the other run has before its first operation.
   static bool is_missing(const std::vector<ComparedOperation>& operations, const std::vector<ComparedOperation>& others,
-                         std::size_t index) {
+                         std::size_t index, Difference prologue) {
     const auto size = [](const ComparedOperation& operation) { return operation.end - operation.begin; };
     const std::size_t half = size(operations[index]) / 2;
-    if (index == 0) return others.empty() || others[0].begin <= operations[0].begin + half;
+    if (index == 0) return static_cast<std::size_t>(prologue) <= operations[0].begin + half;
     const ComparedOperation& before = operations[index - 1];
     return before.partner == ComparedOperation::kNone || size(others[before.partner]) <= size(before) + half;
   }
@@ -192,8 +217,12 @@ class OperationSorter {
     if (a_left.empty() && b_left.empty()) return true;
     // After an error nothing is done: that has not been removed.
     if (runs_.a.actions.back().number != runs_.b.actions.back().number) return false;
-    return std::all_of(a_left.begin(), a_left.end(), [&](std::size_t i) { return is_missing(of_a_, of_b_, i); }) &&
-           std::all_of(b_left.begin(), b_left.end(), [&](std::size_t k) { return is_missing(of_b_, of_a_, k); });
+    const Difference a_prologue = prologue(runs_.a, of_a_);
+    const Difference b_prologue = prologue(runs_.b, of_b_);
+    return std::all_of(a_left.begin(), a_left.end(),
+                       [&](std::size_t i) { return is_missing(of_a_, of_b_, i, b_prologue); }) &&
+           std::all_of(b_left.begin(), b_left.end(),
+                       [&](std::size_t k) { return is_missing(of_b_, of_a_, k, a_prologue); });
   }
 
   /// Pairs operations that come after the same ones.
@@ -351,18 +380,23 @@ class OperationSorter {
     if (has_place && motion != ordered.actions.end() && motion->arc == MachineAction::kNone) motion->from = place;
   }
 
-  /// Adds the end, and brings times and IFs into the new order.
-  static void finish(const RecordedRun& run, const std::vector<ComparedOperation>& operations,
-                     const std::vector<std::size_t>& places, RecordedRun& ordered) {
-    ordered.actions.push_back(run.actions.back());
+  /// Adds the epilogue, and brings times and IFs into the new order.
+  void finish(const RecordedRun& run, const std::vector<ComparedOperation>& operations,
+              const std::vector<std::size_t>& places, RecordedRun& ordered) const {
+    const std::size_t epilogue = run.actions.size() - epilogue_;
+    const std::size_t place = ordered.actions.size();
+    ordered.actions.insert(ordered.actions.end(), run.actions.begin() + static_cast<Difference>(epilogue),
+                           run.actions.end());
     const auto duration = [&](std::size_t i) {
       return i + 1 < run.actions.size() ? run.actions[i + 1].start - run.actions[i].start : 0;
     };
-    const std::size_t prologue = operations.empty() ? run.actions.size() - 1 : operations[0].begin;
-    std::vector<std::size_t> index(run.actions.size(), ordered.actions.size() - 1);  // Where each action stands now.
-    std::iota(index.begin(), index.begin() + static_cast<Difference>(prologue), std::size_t{0});
+    const Difference first = prologue(run, operations);
+    std::vector<std::size_t> index(run.actions.size());  // Where each action stands now.
+    std::iota(index.begin(), index.begin() + first, std::size_t{0});
+    std::iota(index.begin() + static_cast<Difference>(epilogue), index.end(), place);
     std::vector<double> durations(ordered.actions.size());
-    for (std::size_t i = 0; i < prologue; ++i) durations[i] = duration(i);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(first); ++i) durations[i] = duration(i);
+    for (std::size_t i = epilogue; i < run.actions.size(); ++i) durations[index[i]] = duration(i);
     for (std::size_t operation = 0; operation < operations.size(); ++operation) {
       const auto [begin, end, partner] = operations[operation];
       for (std::size_t i = begin; i < end; ++i) {
@@ -386,6 +420,7 @@ class OperationSorter {
 
   const RunPair& runs_;
   const ComparisonOptions& options_;
+  std::size_t epilogue_;
   std::vector<ComparedOperation> of_a_;
   std::vector<ComparedOperation> of_b_;
 };
@@ -393,7 +428,16 @@ class OperationSorter {
 }  // namespace
 
 std::optional<OrderedRuns> in_same_order(const RunPair& runs, const ComparisonOptions& options) {
-  return OperationSorter(runs, options).sort();
+  OperationSorter sorter(runs, options, 1);
+  if (!sorter.are_few()) return std::nullopt;
+  // What stands after the last operation may belong to it, or to whichever is the last one.
+  const std::size_t epilogue = common_epilogue(runs);
+  const std::size_t left = sorter.pair_exact();
+  if (left > 0 && epilogue > 1) {
+    OperationSorter without(runs, options, epilogue);
+    if (without.pair_exact() < left) return without.sort();
+  }
+  return sorter.sort();
 }
 
 }  // namespace isocnc::comparison

@@ -74,6 +74,14 @@ std::string operations(const std::string& tools) {
   return program + "M02\n";
 }
 
+/// The same with one M05, after the last of them: each M06 stops the spindle.
+std::string with_one_stop(std::string program) {
+  const std::string stop = "M05\n";
+  for (std::size_t at = program.find(stop); at != program.rfind(stop); at = program.find(stop))
+    program.erase(at, stop.size());
+  return program;
+}
+
 const ComparisonCase kCases[] = {
     // Nothing that the machine would notice.
     {"Itself", kSquare, kSquare, ""},
@@ -267,6 +275,12 @@ const ComparisonCase kCases[] = {
      "reordered 19-27|10-18: order changed: now after T101001, was after T101002\n"},
     {"OperationsSwappedAtTheStart", operations("123"), operations("213"),
      "reordered 10-18|1-9: order changed: now the first one, was after T101001\n"},
+    {"OperationsSwappedBeforeTheLastStop", with_one_stop(operations("12")), with_one_stop(operations("21")),
+     "reordered 9-16|1-8: order changed: now the first one, was after T101001\n"},
+    {"ToolWhereThereWasNone", "M100\nG04 P1\nM101\nM102\nM103\nM02\n",
+     "M06 T101001\nM100\nG04 P1\nM101\nM102\nM103\nM02\n", "tool -|1: added: T101001\n"},
+    {"ToolAfterWhatNeedsNone", "M100\nG04 P1\nM101\nM02\n", "M100\nG04 P1\nM101\nM06 T101001\nM02\n",
+     "added -|4: added: operation of T101001, 0 motions\n"},
     {"OperationMovedToTheEnd", operations("1234"), operations("2341"),
      "reordered 1-9|28-36: order changed: now after T101004, was the first one\n"},
     {"OperationLost", operations("123"), operations("13"),
