@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analyzer/formats/renderers.h"
+#include "analyzer/formats/way_errors.h"
 #include "analyzer/selection/program_settings.h"
 #include "analyzer/selection/run_report.h"
 #include "analyzer/selection/verified.h"
@@ -118,8 +119,6 @@ constexpr Text kNoProgram{"--import-tools, --export-tools and --new-machine run 
                           "--import-tools, --export-tools e --new-machine non eseguono programmi, come {}"};
 constexpr Text kCutsNothing{"there is no outline: the program has no feed move with a tool",
                             "non c'è un contorno: il programma non ha movimenti di lavoro con un utensile"};
-constexpr Text kRestartHits{"no safe restart before line {}: on the way, {}",
-                            "nessuna ripresa sicura dalla riga {}: lungo il percorso, {}"};
 constexpr Text kOperationHits{"{} alone is not written: on its way, {}",
                               "{} da solo non viene scritto: lungo il percorso, {}"};
 constexpr Text kCutsNoMaterial{"{} goes with --verify, --stock-out or --plot FILE.html, which cut the stock",
@@ -511,56 +510,8 @@ ExitStatus refuse(const restart::RestartRefusal& refusal, const RunCommandOption
   return refusal.obstacle == restart::RestartObstacle::NoSuchLine ? ExitStatus::Failure : ExitStatus::Findings;
 }
 
-/// An error on the way of a program: what it would hit, for an operator.
-struct WayError {
-  dialect::DiagnosticId id;
-  std::string block;  ///< The text of its line.
-  std::string message;
-};
-
-/// What would stop a program, or be hit on its way, from its start on. `cuts` says whether the stock counts.
-std::vector<WayError> errors_on_the_way(std::string_view program, const RunCommandOptions& options,
-                                        const running::RunOptions& run_options, const RunSettings& settings,
-                                        bool cuts) {
-  const Language language = options.reader_language();
-  RunOutputs outputs;
-  outputs.language = language;
-  outputs.subject.home = settings.machine.setup.home;
-  outputs.subject.scene = settings.scene;
-  if (settings.scene) outputs.subject.origin = verification::first_workpiece_origin(program, run_options);
-  outputs.material.is_cut = cuts;
-  RunReport report(outputs, settings.machine.timed);
-  running::RunOptions trial = run_options;
-  trial.before_block = [&](const running::Block& block) { report.take(block); };
-  const running::RunResult result = run(program, trial, [&](const running::Event& event) { report.take(event); });
-  syntax::LineFinder lines(program);
-  if (result.ending == running::Ending::Error)
-    return {{result.error.id, std::string(lines.line(result.line)), running::error_message(result, language)}};
-  const verification::VerifiedRun verified = report.end_run(program, result);
-  const check::Report shown = selection::shown_run_report(verified.outcome, program, settings.selection);
-  std::vector<WayError> errors;
-  for (const check::LocatedFinding& located : shown.findings) {
-    if (located.severity() != dialect::Severity::Error) continue;
-    const std::string_view line = lines.line(located.line);
-    errors.push_back({located.finding.id, std::string(line), formats::message_of(located, shown, line, language)});
-  }
-  return errors;
-}
-
-/// What a program that holds parts of another one would hit though the other one does not: on the way there. The stock
-/// does not count, since what has been cut before is not known. Empty for nothing.
-std::string obstacle_on_the_way_there(std::string_view program, std::string_view original,
-                                      const RunCommandOptions& options, const running::RunOptions& run_options,
-                                      const RunSettings& settings) {
-  if (!settings.scene) return {};
-  const std::vector<WayError> known = errors_on_the_way(original, options, run_options, settings, false);
-  for (const WayError& error : errors_on_the_way(program, options, run_options, settings, false)) {
-    const bool is_known = std::any_of(known.begin(), known.end(), [&](const WayError& each) {
-      return each.id == error.id && each.block == error.block;
-    });
-    if (!is_known) return error.message;
-  }
-  return {};
+formats::TrialMachine trial_machine(const RunCommandOptions& options, const RunSettings& settings) {
+  return {settings.machine.timed, settings.scene.get(), settings.selection, options.reader_language()};
 }
 
 ExitStatus restart(const system::SourceFile& source, const RunCommandOptions& options,
@@ -569,10 +520,10 @@ ExitStatus restart(const system::SourceFile& source, const RunCommandOptions& op
   const auto* const program = std::get_if<std::string>(&made);
   if (program == nullptr) return refuse(std::get<restart::RestartRefusal>(made), options);
   const std::string obstacle =
-      obstacle_on_the_way_there(*program, source.text(), options, restart_options.run, settings);
+      obstacle_on_the_way_there(*program, source.text(), restart_options.run, trial_machine(options, settings));
   if (obstacle.empty()) return write_part(*program, source, options);
   complain(fmt::format("{}: {}", options.shown_file(),
-                       dialect::format(kRestartHits, options.reader_language(), restart_options.line + 1, obstacle)));
+                       formats::restart_hits(restart_options.line, obstacle, options.reader_language())));
   return ExitStatus::Findings;
 }
 
@@ -584,7 +535,7 @@ ExitStatus write_operation(const system::SourceFile& source, const RunCommandOpt
   const std::string tool = running::tool_name(choice.tool);
   if (const auto* const program = std::get_if<std::string>(&made)) {
     const std::string obstacle =
-        obstacle_on_the_way_there(*program, source.text(), options, restart_options.run, settings);
+        obstacle_on_the_way_there(*program, source.text(), restart_options.run, trial_machine(options, settings));
     if (obstacle.empty()) return write_part(*program, source, options);
     complain(fmt::format("{}: {}", options.shown_file(), dialect::format(kOperationHits, language, tool, obstacle)));
     return ExitStatus::Findings;
@@ -608,7 +559,8 @@ ExitStatus write_operation(const system::SourceFile& source, const RunCommandOpt
 /// What would stop a program, or be hit on its way: the first error, for an operator; empty for none.
 std::string obstacle_on_the_way(std::string_view program, const RunCommandOptions& options,
                                 const running::RunOptions& run_options, const RunSettings& settings) {
-  const std::vector<WayError> errors = errors_on_the_way(program, options, run_options, settings, true);
+  const std::vector<formats::WayError> errors =
+      errors_on_the_way(program, run_options, trial_machine(options, settings), true);
   return errors.empty() ? "" : errors.front().message;
 }
 

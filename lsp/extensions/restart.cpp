@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -7,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "analyzer/formats/way_errors.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/restart/restart.h"
 #include "lsp/extensions/extension.h"
@@ -68,7 +70,14 @@ std::string restart_text(const Snapshot& snapshot, const RestartParams& params) 
   auto made = restart::restart_program(snapshot.document().text(), options);
   if (const auto* const refusal = std::get_if<restart::RestartRefusal>(&made))
     throw rpc::Error(rpc::ErrorCode::RequestFailed, why_not(*refusal, snapshot.language()));
-  return std::get<std::string>(std::move(made));
+  auto& program = std::get<std::string>(made);
+  const std::shared_ptr<const verification::Scene> scene = snapshot.settings().scene();
+  const std::string obstacle = formats::obstacle_on_the_way_there(
+      program, snapshot.document().text(), options.run,
+      {snapshot.configuration().machine.timed, scene.get(), snapshot.selection(), snapshot.language()});
+  if (!obstacle.empty())
+    throw rpc::Error(rpc::ErrorCode::RequestFailed, formats::restart_hits(options.line, obstacle, snapshot.language()));
+  return std::move(program);
 }
 
 /// Whether the client can create documents by an edit.

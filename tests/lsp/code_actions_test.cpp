@@ -303,6 +303,29 @@ TEST(Restart, IsMadeByTheEditorWhereItMakesDocuments) {
   EXPECT_THAT(changes[1]["edits"][0]["newText"].get<std::string>(), testing::EndsWith("X20\nM02\n"));
 }
 
+/// From home around a post to its work; a restart would go through it.
+TEST(Restart, IsNotMadeWhereItsWayHitsSomething) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "isols-restart-post";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "isocnc.json") << R"({"machine": {"home": {"z": 400},
+      "tools": [{"head": 1, "holder": 1, "tool": 1, "radius": 5, "length": 100, "shape": "flat"}]},
+    "setups": [{"paths": ["*.iso"], "frame": "machine",
+                "fixtures": [{"name": "post", "box": [[90, -20, 0], [110, 20, 500]]}]}]})";
+  const std::string uri = "file://" + (folder / "part.iso").string();
+  Session session;
+  session.start();
+  session.open(uri,
+               "M06 T101001\nS12000 M03\nG00 Y100\nX200\nY0\nZ-2\nG01 X190 F1000\nX180\nG00 Z300\nY100\nM05\nM02\n");
+  const auto restart = [&](int line) {
+    return session.respond("workspace/executeCommand",
+                           {{"command", "isocnc.restart"}, {"arguments", {{{"uri", uri}, {"line", line}}}}});
+  };
+  EXPECT_THAT(restart(7)["error"]["message"].get<std::string>(),
+              testing::HasSubstr("no safe restart before line 8: on the way, the cutter of T101001 hits post"));
+  EXPECT_THAT(restart(3)["result"]["text"].get<std::string>(), testing::HasSubstr("\nX200\n"));
+  std::filesystem::remove_all(folder);
+}
+
 /// The tool stands 8 mm beside the contour, and can be raised by at most 40 mm.
 TEST(Restart, IsMadeForTheConfiguredMachine) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "isols-restart";
