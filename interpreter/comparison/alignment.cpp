@@ -47,6 +47,12 @@ bool ends_where_it_did(const RunPair& runs, const MachineAction& a, const Machin
   return is_clear && ends_together(runs, a, b, Vec3::Zero());
 }
 
+bool ends_in_place(const RunPair& runs, const MachineAction& a, const MachineAction& b, const Vec3& before,
+                   const Vec3& after) {
+  return ends_together(runs, a, b, before) || ends_together(runs, a, b, after) ||
+         ends_where_it_did(runs, a, b, before, after);
+}
+
 bool is_same_effect(const RunPair& runs, const MachineAction& a, const MachineAction& b) {
   if (a.kind != b.kind) return false;
   constexpr double kSameValue = 1e-6;

@@ -69,6 +69,11 @@ bool ends_together(const RunPair& runs, const MachineAction& a, const MachineAct
 bool ends_where_it_did(const RunPair& runs, const MachineAction& a, const MachineAction& b,
                        const geometry::Vec3& before, const geometry::Vec3& after);
 
+/// Whether two motions between others end in place: with the shift of what comes before or after them, or where they
+/// did.
+bool ends_in_place(const RunPair& runs, const MachineAction& a, const MachineAction& b, const geometry::Vec3& before,
+                   const geometry::Vec3& after);
+
 /// Whether one motion goes where the other one does, from its start to its end, when it is shifted by what lies between
 /// their starts and, more and more, by what lies between their ends. Where both are the same, that is the whole path. A
 /// line goes the same way as any other one; an arc the other way around, of another radius or in place of a line does

@@ -17,9 +17,7 @@ static float replacement_cost(const RunPair& runs, const MachineAction& a, const
   if (a.kind != b.kind) return kNever;
   if (!a.is_motion()) return is_same_effect(runs, a, b) ? 0.F : 1.F;
   constexpr float kOtherWay = 0.5F;
-  if (ends_together(runs, a, b, before) || ends_together(runs, a, b, after) ||
-      ends_where_it_did(runs, a, b, before, after))
-    return goes_same_way(runs, a, b) ? 0.F : kOtherWay;
+  if (ends_in_place(runs, a, b, before, after)) return goes_same_way(runs, a, b) ? 0.F : kOtherWay;
   const Vec3 other_way = (b.to.tip - b.from.tip) - (a.to.tip - a.from.tip);
   // The same way elsewhere: the retract after the last hole.
   if (a.is_line() && b.is_line() && a.is_rapid == b.is_rapid && other_way.norm() <= runs.tolerance) return 1;

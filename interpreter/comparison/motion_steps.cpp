@@ -96,9 +96,7 @@ class LineJoiner {
   }
 
   float pair_cost(const MachineAction& a, const MachineAction& b) const {
-    if (ends_together(runs_, a, b, part_.before) || ends_together(runs_, a, b, part_.after) ||
-        ends_where_it_did(runs_, a, b, part_.before, part_.after))
-      return goes_same_way(runs_, a, b) ? 0.F : 0.5F;
+    if (ends_in_place(runs_, a, b, part_.before, part_.after)) return goes_same_way(runs_, a, b) ? 0.F : 0.5F;
     const double distance = (b.to.tip - a.to.tip - part_.before).norm();
     const double length = 1 + (a.to.tip - a.from.tip).norm() + (b.to.tip - b.from.tip).norm();
     return 1 + 0.1F * static_cast<float>(std::min(1.0, distance / length));

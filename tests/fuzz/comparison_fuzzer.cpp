@@ -4,9 +4,8 @@
 #include <string_view>
 #include <utility>
 
-#include "interpreter/comparison/comparison.h"
-#include "interpreter/comparison/comparison_text.h"
 #include "require.h"
+#include "tests/comparison/compared.h"
 
 namespace isocnc::fuzz {
 
@@ -31,14 +30,6 @@ static std::pair<std::string, std::string> programs_in(std::string_view bytes) {
 /// A large tolerance, mm, divides curves into few chords, and so tries more programs.
 static constexpr double kTolerance = 0.5;
 
-static RecordedRun recorded(std::string_view program) {
-  simulation::TimedMachine machine{.motion = kinematics::head_router()};
-  machine.tool_radii = {{execution::tool_code(101001), 3}};
-  running::RunOptions options;
-  options.vgpl = 1;
-  return comparison::record(program, options, machine);
-}
-
 static void require_steps(const RecordedRun& old_run, const RecordedRun& new_run) {
   std::size_t of_old = 0;
   std::size_t of_new = 0;
@@ -52,8 +43,8 @@ static void require_steps(const RecordedRun& old_run, const RecordedRun& new_run
 
 static void compare_programs(std::string_view bytes) {
   const auto [old_program, new_program] = programs_in(bytes);
-  const RecordedRun old_run = recorded(old_program);
-  const RecordedRun new_run = recorded(new_program);
+  const RecordedRun old_run = comparison::recorded(old_program, 1);
+  const RecordedRun new_run = comparison::recorded(new_program, 1);
   const comparison::ComparisonOptions options{.tolerance = kTolerance};
   for (const RecordedRun* run : {&old_run, &new_run})
     require(compare(*run, *run, options).empty(), "a program does what it does");
