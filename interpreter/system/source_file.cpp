@@ -172,7 +172,9 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::map(const std::filesys
 }
 
 std::variant<SourceFile, SourceFile::Problem> SourceFile::read_stream(int descriptor, Language language) {
-  return read(descriptor, 0, language);
+  const std::optional<FileStatus> status = status_of(descriptor);
+  const bool has_size = status && status->kind == FileStatus::Kind::Regular;
+  return read(descriptor, has_size ? static_cast<std::size_t>(status->size) : 0, language);
 }
 
 std::variant<SourceFile, SourceFile::Problem> SourceFile::of_bytes(std::string_view bytes, Language language) {

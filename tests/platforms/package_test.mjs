@@ -47,6 +47,14 @@ test('format() writes what isofmt writes', async () => {
   assert.equal(await format(text, { args: ['--g-digits', '2'] }), printed('isofmt', ['--no-config', '--stdout', '--g-digits', '2'], text));
 });
 
+test('characters of any length stand wherever the module reads on', async () => {
+  for (const shift of ['', 'x', 'xx', 'xxx']) {
+    const text = `${`;${shift}${'aè€🔧'.repeat(9)}\n`.repeat(3000)}M02\n`;
+    assert.equal(await format(text), printed('isofmt', ['--no-config', '--stdout'], text));
+  }
+  assert.equal(await format(';\ud800\nM02\n'), ';\ufffd\nM02\n'); // Half a character.
+});
+
 test('run() tells what isorun tells', async () => {
   const { trace, ...summary } = await run(pocket, { trace: true });
   assert.deepEqual(summary, { ...JSON.parse(printed('isorun', ['--no-config', '--json'], pocket)), file: summary.file });

@@ -3,10 +3,11 @@
 export type Program = 'isolint' | 'isofmt' | 'isorun' | 'isodiff';
 export type Server = 'isols' | 'isodap';
 
-/** A file that is open; what is written to it goes through `stream_ops`. */
+/** A file that is open; what is read from it and written to it goes through `stream_ops`, what is known of it through `node_ops`. */
 export interface OpenFile {
   fd: number;
-  stream_ops: { write(stream: OpenFile, bytes: Int8Array, offset: number, length: number): number };
+  stream_ops: Record<'read' | 'write', (stream: OpenFile, bytes: Int8Array, offset: number, length: number) => number>;
+  node: { node_ops: { getattr(node: OpenFile['node']): { size: number } } };
 }
 
 /** The files that the module sees: in a page they are in memory. */
@@ -14,8 +15,7 @@ export interface Files {
   cwd(): string;
   chdir(path: string): void;
   mkdirTree(path: string): void;
-  /** With `canOwn` the file keeps these bytes instead of a copy. */
-  writeFile(path: string, content: string | Uint8Array, options?: { canOwn: boolean }): void;
+  writeFile(path: string, content: string | Uint8Array): void;
   readFile(path: string): Uint8Array;
   readFile(path: string, options: { encoding: 'utf8' }): string;
   unlink(path: string): void;

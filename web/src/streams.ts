@@ -1,4 +1,4 @@
-/** Commands on texts: standard input is a file in the module's memory, and what they write becomes text. */
+/** Commands on texts: standard input is one text, and what they write becomes another. */
 import { run, type Files, type Module, type OpenFile, type Program } from './module';
 
 const [input, output, complaints] = ['/isocnc.in', '/isocnc.out', '/isocnc.err'];
@@ -23,9 +23,41 @@ export function filesIn(FS: Files, folder = ''): Map<string, Uint8Array> {
 }
 
 /** Makes a standard stream a file. */
-function redirect(module: Module, descriptor: number, path: string, flags: string): OpenFile {
-  module.FS.close(module.FS.streams[descriptor]);
-  return module.FS.open(path, flags); // Takes the lowest number that is free.
+function redirect({ FS }: Module, descriptor: number, path: string, flags: string): OpenFile {
+  FS.close(FS.streams[descriptor]);
+  return FS.open(path, flags); // Takes the lowest number that is free.
+}
+
+/**
+ * Makes standard input a text. It is encoded right into the memory of the one who reads: a file in between costs more than
+ * the check of a long program.
+ */
+function provide(module: Module, text: string): void {
+  module.FS.writeFile(input, '');
+  const stream = redirect(module, 0, input, 'r');
+  const utf8 = new TextEncoder();
+  let position = 0;
+  let rest = new Uint8Array(); // Of a character that has no room where the reader ends.
+  stream.stream_ops = {
+    ...stream.stream_ops,
+    read(_stream, bytes, offset, length) {
+      const room = new Uint8Array(bytes.buffer, bytes.byteOffset + offset, length);
+      if (rest.length === 0) {
+        const { read, written } = utf8.encodeInto(text.slice(position), room);
+        position += read;
+        if (written > 0 || position === text.length) return written;
+        rest = utf8.encode(String.fromCodePoint(text.codePointAt(position)!));
+        position += text.codePointAt(position)! > 0xffff ? 2 : 1;
+      }
+      const part = rest.subarray(0, length);
+      room.set(part);
+      rest = rest.subarray(part.length);
+      return part.length;
+    },
+  };
+  // The reader makes room for as much as the file is long: without umlauts, all of it at once.
+  const { getattr } = stream.node.node_ops;
+  stream.node.node_ops = { ...stream.node.node_ops, getattr: (node) => ({ ...getattr(node), size: text.length }) };
 }
 
 /** Makes a standard stream a text, which is returned by the result. Of a file in memory all would be copied again and again as it grows. */
@@ -45,9 +77,7 @@ function collect(module: Module, descriptor: number, path: string): () => string
 
 /** Runs a command with `text` at its standard input. */
 export function runOnText(module: Module, program: Program, args: readonly string[], text = ''): Outcome {
-  const { FS } = module;
-  FS.writeFile(input, new TextEncoder().encode(text), { canOwn: true }); // Much faster than Emscripten's own, and not copied.
-  redirect(module, 0, input, 'r');
+  provide(module, text);
   const written = collect(module, 1, output);
   const complained = collect(module, 2, complaints);
   const status = run(module, program, args);
