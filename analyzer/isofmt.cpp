@@ -105,7 +105,7 @@ constexpr Text kNoZero{"--zero takes a zero point in machine coordinates, such a
                        "--zero vuole un'origine in coordinate di macchina, come G54=350,220,-185.5, non {}"};
 constexpr Text kStopsTranslation{"not translated: the control would stop at {} of the translation, {}",
                                  "non tradotto: il controllo si fermerebbe a {} della traduzione, {}"};
-constexpr Text kTranslated{"places left as comments: {}", "punti rimasti come commenti: {}"};
+constexpr Text kTranslated{"places to look at: {}", "punti da controllare: {}"};
 
 /// Reads a start and a step, such as 10:10; the step must be at least 1.
 std::optional<formatting::NumberStyle> read_numbers(std::string_view text) {

@@ -134,7 +134,7 @@ void TranslationRun::set_position(CurrentBlock& current) {
     frame_is_wrong_ = true;
     kept_shift_.reset();
   };
-  const ForeignWord& g92 = *current.find('G');
+  const ForeignWord& g92 = current.g_of(SetPosition);
   if (frames_.rotation) return give_up({Untranslatable::UnknownG, g92.at, {"G92"}});
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const ForeignWord* const word = current.find(kFrameAxes[axis]); word != nullptr && !place_.known[axis])
@@ -165,7 +165,7 @@ void TranslationRun::set_data(CurrentBlock& current) {
     frame_is_wrong_ = frame_is_wrong_ || (is_zero && (name == frames_.selected || number == 0));
     if (is_zero) forget_zero(current);
   };
-  const ForeignWord& g10 = *current.find('G');
+  const ForeignWord& g10 = current.g_of(Data);
   const bool is_known_form =
       is_zero && number >= (is_fanuc ? 1 : 0) && number <= last && (r == nullptr || r->value == 0);
   if (!is_known_form) return give_up({Untranslatable::UnknownG, g10.at, {l == nullptr ? "G10" : "G10 L" + l->digits}});
@@ -203,7 +203,7 @@ void TranslationRun::set_rotation(CurrentBlock& current) {
   const std::optional<double> v = center(plane.v);
   const bool is_sayable = r != nullptr && !now_.incremental && !frames_.rotation && u && v;
   if (!is_sayable) {
-    report(current, Untranslatable::UnknownG, *current.find('G'));
+    report(current, Untranslatable::Rotation, current.g_of(Rotation));
     suspended_by_.insert(Rotation);
     return keep_as_comment(current);
   }
@@ -257,7 +257,7 @@ void TranslationRun::go_to_reference(CurrentBlock& current, int name) {
   const bool is_given =
       !is_further && !lost_references_.contains(name) && (found != setup_.map.references.end() || name == 280);
   if (!is_given) {
-    report(current, {Untranslatable::ReferenceMissing, current.find('G')->at, {fmt::format("G{}", name / 10)}});
+    report(current, {Untranslatable::ReferenceMissing, current.g_of(Reference).at, {fmt::format("G{}", name / 10)}});
     keep_as_comment(current);
     return lose(current, !current.has_any("XYZ"));
   }

@@ -87,7 +87,7 @@ bool TranslationRun::has_tool(CurrentBlock& current) {
 /// G53: the block's coordinates are those of the machine.
 void TranslationRun::move_in_machine(CurrentBlock& current) {
   if (now_.incremental || motion_ < 0 || motion_ > 1)
-    return refuse_motion(current, BlockRefusal{Untranslatable::MachineCoordinates, current.find('G')->at, {}});
+    return refuse_motion(current, BlockRefusal{Untranslatable::MachineCoordinates, current.g_of(MachineCoordinates).at, {}});
   if (!has_tool(current)) return;
   const bool is_lost = std::any_of(lost_.begin(), lost_.end(), [](bool lost) { return lost; });
   if (is_lost && motion_ == 1)

@@ -34,6 +34,7 @@ enum class UntranslatableReason : std::uint8_t {
   PolarCoordinates,
   ScaledOrMirrored,
   TiltedPlane,
+  Rotation,
   FeedPerTurn,
   SurfaceSpeed,
   DiameterMode,

@@ -70,6 +70,12 @@ bool TranslationRun::CurrentBlock::has(ForeignRole role) const {
   return std::any_of(gs.begin(), gs.end(), [&](const auto& g) { return g.second == role; });
 }
 
+const ForeignWord& TranslationRun::CurrentBlock::g_of(ForeignRole role) const {
+  std::size_t place = 0;
+  return *std::find_if(words.begin(), words.end(),
+                       [&](const ForeignWord& word) { return word.letter == 'G' && gs[place++].second == role; });
+}
+
 bool TranslationRun::CurrentBlock::has_any(std::string_view letters) const {
   return std::any_of(words.begin(), words.end(),
                      [&](const ForeignWord& word) { return letters.find(word.letter) != std::string_view::npos; });

@@ -83,6 +83,7 @@ class TranslationRun {
 
     const ForeignWord* find(char letter) const;
     bool has(ForeignRole role) const;
+    const ForeignWord& g_of(ForeignRole role) const;  ///< The first of those that the block has.
     bool has_any(std::string_view letters) const;
   };
 

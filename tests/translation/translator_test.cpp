@@ -227,6 +227,16 @@ TEST(Translation, KeepsTheWordsOfWhatStaysAComment) {
   EXPECT_EQ(translated("G96 D100 S10", SourceControl::LinuxCnc), "; NOT TRANSLATED: G96 D100 S10\n");
 }
 
+TEST(Translation, PointsAtTheGThatItCannotSay) {
+  const auto findings = [](const std::string& block) {
+    return findings_text(translate("G00 X0. Y0. Z9.\n" + block + "\nM30\n", setup_for(SourceControl::Fanuc)));
+  };
+  EXPECT_EQ(findings("G68 X0. Y0. R30.\nG17 G90 G68 X0. Y0. R60."),
+            "3:9: G68 is translated where it has an R, its center is known, G90 holds and no other G68 does\n");
+  EXPECT_EQ(findings("G68 X0. Y0. R30.\nG69\nG68 X0. Y0. R60.\nG69"), "");
+  EXPECT_EQ(findings("G90 G10 L50"), "2:5: G10 L50 has no translation\n");
+}
+
 TEST(Translation, TakesFanucWordsAsFanucDoes) {
   struct Case {
     std::string_view original, expected;
