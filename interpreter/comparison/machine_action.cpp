@@ -18,7 +18,11 @@ namespace {
 /// Turns the events of a run into actions.
 class ActionRecorder {
  public:
-  explicit ActionRecorder(const simulation::TimedMachine& machine) : machine_(machine) {
+  ActionRecorder(std::string_view text, const simulation::TimedMachine& machine) : machine_(machine) {
+    // Most lines are one action. A list that grows is copied, and a system may be slow to find the memory for copies.
+    static constexpr std::ptrdiff_t kMostAtOnce = 2'000'000;
+    run_.actions.reserve(static_cast<std::size_t>(std::min(std::count(text.begin(), text.end(), '\n'), kMostAtOnce)) +
+                         2);
     run_.machine = machine.motion;
     run_.frames.emplace_back();
     run_.spindles.emplace_back();
@@ -175,7 +179,7 @@ std::string_view error_of(const RecordedRun& run) {
 
 RecordedRun record(std::string_view text, running::RunOptions options, const simulation::TimedMachine& machine,
                    const RecordingListeners& listeners) {
-  ActionRecorder recorder(machine);
+  ActionRecorder recorder(text, machine);
   simulation::Timing timing(machine, {.event =
                                           [&](const simulation::TimedEvent& timed) {
                                             std::optional<kinematics::MadeMove> made;
