@@ -228,6 +228,57 @@ std::optional<double> distance_of(std::span<const Vec3> a, std::span<const Vec3>
 
 namespace {
 
+/// How far B and C of a pose are from those of the nearest place on a path, and how far that is.
+struct NearestTurn {
+  double distance = std::numeric_limits<double>::infinity();  ///< mm.
+  double degrees = std::numeric_limits<double>::infinity();
+};
+
+NearestTurn nearest_turn(const Pose& pose, const MachineAction& motion) {
+  const Vec3 along = motion.to.tip - motion.from.tip;
+  const Eigen::Vector2d turn{motion.to.b - motion.from.b, motion.to.c - motion.from.c};
+  const Eigen::Vector2d from_start{pose.b - motion.from.b, pose.c - motion.from.c};
+  const bool goes = !along.isZero(0);
+  const double square = goes ? along.squaredNorm() : turn.squaredNorm();
+  const double ahead = goes ? along.dot(pose.tip - motion.from.tip) : turn.dot(from_start);
+  const double part = square > 0 ? std::clamp(ahead / square, 0.0, 1.0) : 0;
+  return {(motion.from.tip + part * along - pose.tip).norm(), (from_start - part * turn).cwiseAbs().maxCoeff()};
+}
+
+double turn_from(std::span<const MachineAction> motions, std::span<const MachineAction> others, const Vec3& shift) {
+  constexpr double kAsNear = 0.001;  // mm. The place where a path turns belongs to several motions.
+  double farthest = 0;
+  for (const MachineAction& motion : motions) {
+    if (!motion.is_motion()) continue;
+    for (Pose pose : {motion.from, motion.to}) {
+      pose.tip += shift;
+      NearestTurn nearest;
+      for (const MachineAction& other : others) {
+        if (!other.is_motion()) continue;
+        const NearestTurn next = nearest_turn(pose, other);
+        if (next.distance > nearest.distance + kAsNear) continue;
+        const bool is_nearer = next.distance < nearest.distance - kAsNear;
+        nearest.degrees = is_nearer ? next.degrees : std::min(nearest.degrees, next.degrees);
+        nearest.distance = std::min(nearest.distance, next.distance);
+      }
+      if (nearest.degrees < std::numeric_limits<double>::infinity()) farthest = std::max(farthest, nearest.degrees);
+    }
+  }
+  return farthest;
+}
+
+}  // namespace
+
+std::optional<double> turn_between(std::span<const MachineAction> a, std::span<const MachineAction> b,
+                                   const Vec3& shift, std::size_t* left) {
+  const std::size_t wanted = 4 * a.size() * b.size();
+  if (wanted > std::min(kMaxDistances, left == nullptr ? kMaxDistances : *left)) return std::nullopt;
+  if (left != nullptr) *left -= wanted;
+  return std::max(turn_from(a, b, shift), turn_from(b, a, -shift));
+}
+
+namespace {
+
 /// A part of a line, from 0 to 1.
 struct LinePart {
   double from = 1;

@@ -51,6 +51,11 @@ std::optional<double> distance_from(std::span<const geometry::Vec3> chain, std::
 std::optional<double> distance_of(std::span<const geometry::Vec3> a, std::span<const geometry::Vec3> b, double accuracy,
                                   std::size_t* left = nullptr);
 
+/// By how much B or C differ at most where two paths are nearest to each other, degrees; `shift` leads from the first
+/// to the second. Both are taken as straight between the ends of their motions. None as for distance_of().
+std::optional<double> turn_between(std::span<const MachineAction> a, std::span<const MachineAction> b,
+                                   const geometry::Vec3& shift, std::size_t* left = nullptr);
+
 /// Whether two chains can be traveled from their starts to their ends, never back, with both places at most `distance`
 /// apart: whether that is not below their Fréchet distance. Takes time in proportion to the product of their sizes.
 bool goes_along(std::span<const geometry::Vec3> a, std::span<const geometry::Vec3> b, double distance);

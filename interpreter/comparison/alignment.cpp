@@ -300,7 +300,9 @@ class Aligner {
     const bool is_large = !again || std::max(again->place.a - place_.a, again->place.b - place_.b) > 1;
     if (is_large) {
       const std::optional<Again> shifted = in_window(true);
-      if (shifted && (!again || same_steps(*shifted) > same_steps(*again))) again = shifted;
+      // What another tool cuts elsewhere has not been moved.
+      const bool is_of_other = shifted && again && has_same_tool(again->place) && !has_same_tool(shifted->place);
+      if (shifted && !is_of_other && (!again || same_steps(*shifted) > same_steps(*again))) again = shifted;
     }
     if (again && is_large && is_new(again->shift)) again = or_anchor(*again);
     if (!again) again = at_anchor();
@@ -346,6 +348,14 @@ class Aligner {
       ++steps;
     }
     return steps;
+  }
+
+  bool has_same_tool(const PlaceInBoth& place) const {
+    const std::uint32_t of_a = runs_.a.actions[place.a].tool;
+    const std::uint32_t of_b = runs_.b.actions[place.b].tool;
+    constexpr std::uint32_t kNone = MachineAction::kNone;
+    if (of_a == kNone || of_b == kNone) return of_a == of_b;
+    return runs_.a.tools[of_a].code == runs_.b.tools[of_b].code;
   }
 
   /// The shift between the ends of two motions, if both turn to the same B and C. The present shift and none are kept

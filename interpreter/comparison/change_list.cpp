@@ -88,7 +88,7 @@ std::string value_of(const RecordedRun& run, const MachineAction& action) {
       const running::FunctionEvent& function = run.functions[action.number];
       std::string text = fmt::format("M{:02}", function.number);
       for (const execution::FunctionParameter& parameter : function.parameters)
-        text += fmt::format(" P{}={}", parameter.number, shown(parameter.value));
+        text += fmt::format(" P{}={}", parameter.number, dialect::written_number(parameter.value, 6));
       return text;
     }
     case ActionKind::Signal:
@@ -184,20 +184,48 @@ bool ChangeList::has_same_frame(const MachineAction& left, const MachineAction& 
   return (new_frame.origin - old_frame.origin).norm() <= options_.tolerance && old_frame.axes.isApprox(new_frame.axes);
 }
 
+/// Whether two frames differ by just this vector.
+bool ChangeList::is_shift_of_frame(const MachineAction& left, const MachineAction& right, const Vec3& shift) const {
+  const geometry::Frame& old_frame = runs_.a.frames[left.frame].frame;
+  const geometry::Frame& new_frame = runs_.b.frames[right.frame].frame;
+  return (new_frame.origin - old_frame.origin - shift).norm() <= options_.tolerance &&
+         old_frame.axes.isApprox(new_frame.axes);
+}
+
+/// The first actions of a shifted range, up to those that another frame moves, by the same vector.
+ActionRanges ChangeList::up_to_next_frame(const OpenShift& open) const {
+  const ActionRanges& all = open.actions;
+  if (all.a_end - all.a_begin != all.b_end - all.b_begin) return all;
+  const FrameCause cause = cause_of(a(all.a_begin), b(all.b_begin));
+  ActionRanges first{all.a_begin, all.a_begin, all.b_begin, all.b_begin};
+  for (std::size_t i = all.a_begin, k = all.b_begin; i < all.a_end; ++i, ++k) {
+    if (!a(i).is_motion() || !b(k).is_motion()) continue;
+    if (cause_of(a(i), b(k)) != cause && is_shift_of_frame(a(i), b(k), open.shift)) return first;
+    first.a_end = i + 1;
+    first.b_end = k + 1;
+  }
+  return all;
+}
+
 void ChangeList::close_shift() {
-  if (!shift_) return;
-  const OpenShift open = *std::exchange(shift_, std::nullopt);
-  const ActionFrame& old_frame = runs_.a.frames[a(open.actions.a_begin).frame];
-  const ActionFrame& new_frame = runs_.b.frames[b(open.actions.b_begin).frame];
-  const Vec3 moved = new_frame.frame.origin - old_frame.frame.origin - open.shift;
-  const bool is_frame = moved.norm() <= options_.tolerance && old_frame.frame.axes.isApprox(new_frame.frame.axes);
-  BehaviorChange& change = add(is_frame ? ChangeKind::Frame : ChangeKind::Moved, open.actions);
-  change.distance = open.shift.norm();
-  change.shift = open.shift;
-  if (!is_frame) return;
-  const FrameCause cause = cause_of(a(open.actions.a_begin), b(open.actions.b_begin));
-  change.old_cause = cause.old_line;
-  change.new_cause = cause.new_line;
+  while (shift_) {
+    const OpenShift open = *std::exchange(shift_, std::nullopt);
+    const MachineAction& left = a(open.actions.a_begin);
+    const MachineAction& right = b(open.actions.b_begin);
+    const bool is_frame = is_shift_of_frame(left, right, open.shift);
+    const ActionRanges at = is_frame ? up_to_next_frame(open) : open.actions;
+    BehaviorChange& change = add(is_frame ? ChangeKind::Frame : ChangeKind::Moved, at);
+    change.distance = open.shift.norm();
+    change.shift = open.shift;
+    if (!is_frame) return;
+    const FrameCause cause = cause_of(left, right);
+    change.old_cause = cause.old_line;
+    change.new_cause = cause.new_line;
+    OpenShift rest{{at.a_end, open.actions.a_end, at.b_end, open.actions.b_end}, open.shift};
+    while (rest.actions.a_begin < rest.actions.a_end && !a(rest.actions.a_begin).is_motion())
+      ++rest.actions.a_begin, ++rest.actions.b_begin;
+    if (rest.actions.a_begin < rest.actions.a_end) shift_ = rest;
+  }
 }
 
 void ChangeList::compare_feeds(std::size_t i, std::size_t k) {

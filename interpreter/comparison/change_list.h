@@ -114,6 +114,8 @@ class ChangeList {
   const MachineAction& a(std::size_t i) const { return runs_.a.actions[i]; }
   const MachineAction& b(std::size_t i) const { return runs_.b.actions[i]; }
   BehaviorChange measured_change(ChangeKind kind, const ActionRanges& at) const;
+  bool is_shift_of_frame(const MachineAction& left, const MachineAction& right, const geometry::Vec3& shift) const;
+  ActionRanges up_to_next_frame(const OpenShift& open) const;
   void close_shift();
   void close_feed() { close(feed_, ChangeKind::Feed); }
   void close_side() { close(side_, ChangeKind::Function); }

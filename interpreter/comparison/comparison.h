@@ -47,12 +47,14 @@ struct BehaviorChange {
   std::optional<execution::ToolCode> new_tool;
   /// Moved and Shape: how far a point of one path is at most from the other path, mm, or the length of `shift`; 0 for
   /// the same path the other way around. None where only B and C differ, or where that was not computed. Of what the
-  /// machine does elsewhere on the same path: the length of `later`. Added and Removed: the same together with the next
-  /// motion, if that one goes where the other program does not go; its line is then that of the program that has no
-  /// more of the change.
+  /// machine does elsewhere on the same path: the length of `later`. Added and Removed: how far the next motion
+  /// goes from where that of the other program goes, if one of them goes where the other program does not go; its line
+  /// is then that of the program that has no more of the change.
   std::optional<double> distance;
-  double end_distance = 0;              ///< Moved and Frame: by how much a motion ends elsewhere at most, mm.
-  double turned = 0;                    ///< Moved: by how much B or C end elsewhere at most, degrees.
+  /// Moved and Frame: by how much a motion ends elsewhere at most. Added and Removed: how far that program's path is
+  /// from the other one at most. mm.
+  double end_distance = 0;
+  double turned = 0;                    ///< Moved, Shape: by how much B or C differ at most, degrees.
   std::optional<geometry::Vec3> shift;  ///< From old to new, mm, if all is moved by the same.
   double later = 0;    ///< Function, Dwell, Speed, Tool: how much farther on the way the new program does the same, mm.
   double seconds = 0;  ///< How much longer the new program takes for its part, until it does what follows.

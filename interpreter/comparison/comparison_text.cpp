@@ -36,11 +36,13 @@ constexpr Text kWayBack{"the same path the other way around", "lo stesso percors
 constexpr Text kOtherFunctions{"other functions, too many to compare", "altre funzioni, troppe per confrontarle"};
 constexpr Text kEarlier{"{} comes {} mm earlier", "{} viene {} mm prima"};
 constexpr Text kLater{"{} comes {} mm later", "{} viene {} mm dopo"};
-constexpr Text kDwellOf{"dwell of {}", "attesa di {}"};
+constexpr Text kDwellOf{"dwell of {}", "l'attesa di {}"};
 constexpr Text kMotion{"1 motion", "1 movimento"};
 constexpr Text kMotions{"{} motions", "{} movimenti"};
 constexpr Text kAdded{"added: {}", "aggiunto: {}"};
 constexpr Text kRemoved{"removed: {}", "tolto: {}"};
+constexpr Text kMotionsAdded{"added: {} motions", "aggiunti: {} movimenti"};
+constexpr Text kMotionsRemoved{"removed: {} motions", "tolti: {} movimenti"};
 constexpr Text kAndOtherPath{"{}; the next one takes another path, up to {} mm away",
                              "{}; il successivo fa un altro percorso, fino a {} mm di distanza"};
 constexpr Text kReordered{"order changed", "ordine cambiato"};
@@ -130,6 +132,13 @@ std::string shown_place(const BehaviorChange& change, Language language) {
          dialect::format(kNewSide, language, shown_lines(*change.new_lines, language));
 }
 
+std::string and_turned(const std::string& text, const BehaviorChange& change, Language language) {
+  if (change.turned == 0) return text;
+  const std::string degrees = in_thousandths(change.turned);
+  return text + (text.empty() ? "" : ", ") +
+         (degrees == "1" ? std::string(kTurnedByOne.in(language)) : dialect::format(kTurned, language, degrees));
+}
+
 std::string moved_in_words(const BehaviorChange& change, Language language) {
   std::string text;
   if (change.shift) {
@@ -137,13 +146,11 @@ std::string moved_in_words(const BehaviorChange& change, Language language) {
   } else if (change.distance) {
     text = dialect::format(kMovedUpTo, language, shown_distance(std::max(*change.distance, change.end_distance)));
   }
-  if (change.turned == 0) return text.empty() ? std::string(kMoved.in(language)) : text;
-  const std::string degrees = in_thousandths(change.turned);
-  return text + (text.empty() ? "" : ", ") +
-         (degrees == "1" ? std::string(kTurnedByOne.in(language)) : dialect::format(kTurned, language, degrees));
+  if (text.empty() && change.turned == 0) return std::string(kMoved.in(language));
+  return and_turned(text, change, language);
 }
 
-std::string shape_in_words(const BehaviorChange& change, Language language) {
+std::string path_shape_in_words(const BehaviorChange& change, Language language) {
   const std::size_t old_count = change.old_motions;
   const std::string new_count = shown_count(change.new_motions, language);
   const bool is_one = change.old_motions == 1 && change.new_motions == 1;
@@ -154,6 +161,11 @@ std::string shape_in_words(const BehaviorChange& change, Language language) {
   return change.old_motions == change.new_motions
              ? dialect::format(kShape, language, distance)
              : dialect::format(kOtherCount, language, new_count, old_count, distance);
+}
+
+std::string shape_in_words(const BehaviorChange& change, Language language) {
+  const bool is_same_tip = !change.distance && change.turned != 0 && change.old_motions == change.new_motions;
+  return and_turned(is_same_tip ? "" : path_shape_in_words(change, language), change, language);
 }
 
 std::string end_in_words(const BehaviorChange& change, Language language) {
@@ -170,8 +182,10 @@ std::string later_in_words(std::string_view what, double later, Language languag
 /// Motions that only one program has.
 std::string count_in_words(const BehaviorChange& change, Language language) {
   const bool is_added = change.kind == ChangeKind::Added;
-  const std::string text = dialect::format(is_added ? kAdded : kRemoved, language,
-                                           shown_count(is_added ? change.new_motions : change.old_motions, language));
+  const std::size_t count = is_added ? change.new_motions : change.old_motions;
+  const std::string text = count == 1
+                               ? dialect::format(is_added ? kAdded : kRemoved, language, shown_count(count, language))
+                               : dialect::format(is_added ? kMotionsAdded : kMotionsRemoved, language, count);
   return change.distance ? dialect::format(kAndOtherPath, language, text, shown_distance(*change.distance)) : text;
 }
 

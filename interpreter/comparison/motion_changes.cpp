@@ -194,6 +194,11 @@ class MotionNamer {
     const Vec3& shift = group.steps.front().shift;
     const ActionRanges at = group.closed(closing);
     const ActionRanges next{at.a_end - 1, at.a_end, at.b_end - 1, at.b_end};
+    // What is added within a motion leaves a part of it to the next one.
+    const bool has_same_feed =
+        a(next.a_begin).is_rapid == b(next.b_begin).is_rapid && a(next.a_begin).feed == b(next.b_begin).feed;
+    if (has_same_feed)
+      change.seconds = seconds_of(runs_.b, at.b_begin, at.b_end) - seconds_of(runs_.a, at.a_begin, at.a_end);
     const double deviation = options_.tolerance / 8;
     std::vector<Vec3> a_chain = chain(runs_.a, is_added ? next.a_begin : at.a_begin, at.a_end, deviation);
     const std::vector<Vec3> b_chain = chain(runs_.b, is_added ? at.b_begin : next.b_begin, at.b_end, deviation);
@@ -201,9 +206,16 @@ class MotionNamer {
     const std::optional<double> off = is_added ? distance_from(a_chain, b_chain, deviation, distances_left())
                                                : distance_from(b_chain, a_chain, deviation, distances_left());
     if (!off || *off <= options_.tolerance) return;
-    change.distance = shown_distance(at, shift);
-    if (!change.distance) return;
-    change.seconds = seconds_of(runs_.b, at.b_begin, at.b_end) - seconds_of(runs_.a, at.a_begin, at.a_end);
+    // How far the motion itself goes away; where what is added goes, its own numbers say.
+    std::vector<Vec3> next_chain = is_added ? chain(runs_.b, next.b_begin, next.b_end, deviation)
+                                            : chain(runs_.a, next.a_begin, next.a_end, deviation);
+    if (!is_added)
+      for (Vec3& point : next_chain) point += shift;
+    const std::optional<double> next_off =
+        distance_from(next_chain, is_added ? a_chain : b_chain, deviation, distances_left());
+    if (!next_off) return;
+    change.distance = std::max(*off, *next_off);
+    change.end_distance = shown_distance(at, shift).value_or(0);
     if (is_added) {
       change.old_lines = lines_of(runs_.a, next.a_begin, next.a_end);
       change.old_tool = tool_of(runs_.a, a(next.a_begin));
@@ -246,7 +258,17 @@ class MotionNamer {
   }
 
   void name_shape(const ActionRanges& at, const ActionRanges& path, const Vec3& shift) {
-    changes_.add(ChangeKind::Shape, at).distance = shown_distance(path, shift);
+    BehaviorChange& change = changes_.add(ChangeKind::Shape, at);
+    change.distance = shown_distance(path, shift);
+    change.turned = turn(path, shift);
+  }
+
+  /// By how much B or C differ along two paths, degrees; 0 within the tolerance.
+  double turn(const ActionRanges& at, const Vec3& shift) const {
+    const std::span of_a = std::span(runs_.a.actions).subspan(at.a_begin, at.a_end - at.a_begin);
+    const std::span of_b = std::span(runs_.b.actions).subspan(at.b_begin, at.b_end - at.b_begin);
+    const double degrees = turn_between(of_a, of_b, shift, distances_left()).value_or(0);
+    return degrees > options_.tolerance ? degrees : 0;
   }
 
   /// What a frame moves is apart from what is moved in it.

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "interpreter/comparison/change_list.h"
@@ -24,6 +25,12 @@ struct ComparedOperation {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::size_t partner = kNone;  ///< Index of the same operation of the other run.
+  /// Rapids on the way there that the partner does not make, since it is there already.
+  std::vector<std::size_t> left_out = {};
+
+  bool leaves_out(std::size_t action) const {
+    return std::find(left_out.begin(), left_out.end(), action) != left_out.end();
+  }
 };
 
 /// The epilogue, the last actions, is in none of them.
@@ -88,10 +95,10 @@ class OperationSorter {
     std::map<std::pair<execution::ToolCode, std::size_t>, std::vector<std::size_t>> known;
     for (std::size_t k = 0; k < of_b_.size(); ++k)
       if (of_b_[k].partner == ComparedOperation::kNone)
-        known[{tool_at(runs_.b, of_b_[k]), of_b_[k].end - of_b_[k].begin}].push_back(k);
+        known[{tool_at(runs_.b, of_b_[k]), size_of_work(runs_.b, of_b_[k])}].push_back(k);
     for (std::size_t i = 0; i < of_a_.size(); ++i) {
       if (of_a_[i].partner != ComparedOperation::kNone) continue;
-      for (const std::size_t k : known[{tool_at(runs_.a, of_a_[i]), of_a_[i].end - of_a_[i].begin}])
+      for (const std::size_t k : known[{tool_at(runs_.a, of_a_[i]), size_of_work(runs_.a, of_a_[i])}])
         if (pair_if_same(i, k)) break;
     }
     return alone(of_a_).size() + alone(of_b_).size();
@@ -115,7 +122,7 @@ class OperationSorter {
       place_of_b[partner] = ordered.b.actions.size();
       append(runs_.a, of_a_[i], ordered.a);
       append(runs_.b, of_b_[partner], ordered.b);
-      same_way_there(of_a_[i], of_b_[partner], ordered, place_of_b[partner]);
+      same_way_there(of_a_[i], of_b_[partner], ordered, place_of_a[i], place_of_b[partner]);
       if (!stays[i]) ordered.changes.push_back({moved(i), place_of_a[i]});
     }
     for (std::size_t i = 0; i < of_a_.size(); ++i)
@@ -141,22 +148,65 @@ class OperationSorter {
     return static_cast<Difference>(operations.empty() ? run.actions.size() - epilogue_ : operations[0].begin);
   }
 
-  /// Whether both do the same, but for where the axes stand that the way there leaves where they are.
-  bool is_same(const ComparedOperation& left, const ComparedOperation& right) const {
+  /// How many actions an operation has from its first feed move on.
+  static std::size_t size_of_work(const RecordedRun& run, const ComparedOperation& operation) {
+    std::size_t first = operation.begin;
+    while (first < operation.end && (!run.actions[first].is_motion() || run.actions[first].is_rapid)) ++first;
+    return operation.end - first;
+  }
+
+  /// Where the machine stands before an action.
+  static geometry::Pose place_before(const RecordedRun& run, std::size_t action) {
+    for (std::size_t i = action; i < run.actions.size(); ++i)
+      if (run.actions[i].is_motion()) return run.actions[i].from;
+    return {};
+  }
+
+  /// Whether a rapid takes the axes that it moves to where those of the other run stand already, before an action.
+  bool is_there(const MachineAction& motion, const RecordedRun& other, std::size_t action) const {
+    if (!motion.is_motion() || !motion.is_rapid || motion.is_by_joints) return false;
+    const geometry::Pose place = place_before(other, action);
+    const auto is_at = [&](double from, double to, double there) {
+      return from == to || std::abs(to - there) <= options_.tolerance;
+    };
+    for (int axis = 0; axis < 3; ++axis)
+      if (!is_at(motion.from.tip[axis], motion.to.tip[axis], place.tip[axis])) return false;
+    return is_at(motion.from.b, motion.to.b, place.b) && is_at(motion.from.c, motion.to.c, place.c);
+  }
+
+  /// What both leave out of the way there.
+  using LeftOut = std::pair<std::vector<std::size_t>, std::vector<std::size_t>>;
+
+  /// Whether both do the same, but for where the axes stand that the way there leaves where they are; and rapids to
+  /// where one of them stands already.
+  std::optional<LeftOut> same_but_for_way(const ComparedOperation& left, const ComparedOperation& right) const {
     bool is_on_the_way = true;
     bool has_other_way = false;
-    for (std::size_t i = left.begin, k = right.begin; i < left.end; ++i, ++k) {
+    LeftOut left_out;
+    std::size_t i = left.begin;
+    std::size_t k = right.begin;
+    while (i < left.end && k < right.end) {
       const MachineAction& one = runs_.a.actions[i];
       const MachineAction& other = runs_.b.actions[k];
       if (is_same_alone(runs_, options_, one, other)) {
         if (one.is_motion()) is_on_the_way = false;
-      } else if (is_on_the_way && goes_along(one, other)) {
-        has_other_way = true;
+        ++i, ++k;
+        continue;
+      }
+      if (!is_on_the_way) return std::nullopt;
+      has_other_way = true;
+      if (goes_along(one, other)) {
+        ++i, ++k;
+      } else if (is_there(one, runs_.b, k)) {
+        left_out.first.push_back(i++);
+      } else if (is_there(other, runs_.a, i)) {
+        left_out.second.push_back(k++);
       } else {
-        return false;
+        return std::nullopt;
       }
     }
-    return !has_other_way || !is_on_the_way;
+    const bool is_same = i == left.end && k == right.end && (!has_other_way || !is_on_the_way);
+    return is_same ? std::optional(left_out) : std::nullopt;
   }
 
   /// Whether two rapids take the axes that they move to the same places.
@@ -174,10 +224,11 @@ class OperationSorter {
   bool pair_if_same(std::size_t i, std::size_t k) {
     const ComparedOperation& left = of_a_[i];
     const ComparedOperation& right = of_b_[k];
-    if (right.partner != ComparedOperation::kNone || left.end - left.begin != right.end - right.begin ||
-        tool_at(runs_.a, left) != tool_at(runs_.b, right) || !is_same(left, right))
-      return false;
+    if (right.partner != ComparedOperation::kNone || tool_at(runs_.a, left) != tool_at(runs_.b, right)) return false;
+    std::optional<LeftOut> left_out = same_but_for_way(left, right);
+    if (!left_out) return false;
     pair(i, k);
+    std::tie(of_a_[i].left_out, of_b_[k].left_out) = std::move(*left_out);
     return true;
   }
 
@@ -344,10 +395,23 @@ class OperationSorter {
     return 0;
   }
 
+  /// Lets the first motions of two operations begin in the same place.
+  static void same_start(OrderedRuns& ordered, std::size_t a_place, std::size_t b_place) {
+    const auto first_motion = [](std::vector<MachineAction>& actions, std::size_t place) {
+      return std::find_if(actions.begin() + static_cast<Difference>(place), actions.end(),
+                          [](const MachineAction& action) { return action.is_motion(); });
+    };
+    const auto there = first_motion(ordered.a.actions, a_place);
+    const auto here = first_motion(ordered.b.actions, b_place);
+    if (there == ordered.a.actions.end() || here == ordered.b.actions.end()) return;
+    if (there->arc == MachineAction::kNone && here->arc == MachineAction::kNone) here->from = there->from;
+  }
+
   /// The rapids at the begin of two operations that belong together lead there from where the order has it. Those of
   /// the second one stand at `place`.
   void same_way_there(const ComparedOperation& left, const ComparedOperation& right, OrderedRuns& ordered,
-                      std::size_t place) const {
+                      std::size_t a_place, std::size_t place) const {
+    if (!left.left_out.empty() || !right.left_out.empty()) return same_start(ordered, a_place, place);
     const std::size_t count = way_there(left, right);
     bool is_first = true;
     for (std::size_t i = left.begin, k = right.begin; i < left.end && k < right.end; ++i, ++k, ++place) {
@@ -367,14 +431,13 @@ class OperationSorter {
 
   /// Adds an operation, which begins where the one before it ends now.
   static void append(const RecordedRun& run, const ComparedOperation& operation, RecordedRun& ordered) {
-    const auto begin = run.actions.begin() + static_cast<Difference>(operation.begin);
-    const auto end = run.actions.begin() + static_cast<Difference>(operation.end);
     const auto is_motion = [](const MachineAction& action) { return action.is_motion(); };
     const auto before = std::find_if(ordered.actions.rbegin(), ordered.actions.rend(), is_motion);
     const bool has_place = before != ordered.actions.rend();
     const geometry::Pose place = has_place ? before->to : geometry::Pose{};
     const std::size_t count = ordered.actions.size();
-    ordered.actions.insert(ordered.actions.end(), begin, end);
+    for (std::size_t i = operation.begin; i < operation.end; ++i)
+      if (!operation.leaves_out(i)) ordered.actions.push_back(run.actions[i]);
     const auto motion =
         std::find_if(ordered.actions.begin() + static_cast<Difference>(count), ordered.actions.end(), is_motion);
     if (has_place && motion != ordered.actions.end() && motion->arc == MachineAction::kNone) motion->from = place;
@@ -398,10 +461,12 @@ class OperationSorter {
     for (std::size_t i = 0; i < static_cast<std::size_t>(first); ++i) durations[i] = duration(i);
     for (std::size_t i = epilogue; i < run.actions.size(); ++i) durations[index[i]] = duration(i);
     for (std::size_t operation = 0; operation < operations.size(); ++operation) {
-      const auto [begin, end, partner] = operations[operation];
-      for (std::size_t i = begin; i < end; ++i) {
-        index[i] = places[operation] + (partner == ComparedOperation::kNone ? 0 : i - begin);
-        if (partner != ComparedOperation::kNone) durations[index[i]] = duration(i);
+      const ComparedOperation& each = operations[operation];
+      std::size_t next = places[operation];
+      for (std::size_t i = each.begin; i < each.end; ++i) {
+        index[i] = next;
+        if (each.partner == ComparedOperation::kNone || each.leaves_out(i)) continue;
+        durations[next++] = duration(i);
       }
     }
     double start = 0;

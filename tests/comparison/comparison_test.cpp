@@ -74,6 +74,28 @@ std::string operations(const std::string& tools) {
   return program + "M02\n";
 }
 
+/// The same contour on three plates, a tool for each; with the spindle of the second one started before its M06.
+std::string plates(bool starts_too_early) {
+  std::string program;
+  for (const char tool : {'1', '2', '3'}) {
+    const std::string change = std::string("M06 T10100") + tool + "\n";
+    const std::string start = "S9000 M03\n";
+    program += starts_too_early && tool == '2' ? start + change : change + start;
+    program += fmt::format("G00 X{} Y0 Z2\nG01 Z-2 F1000\nX{} F3000\nY30\nX{}\nY0\nG00 Z30\nM05\n", 100 * (tool - '0'),
+                           100 * (tool - '0') + 30, 100 * (tool - '0'));
+  }
+  return program + "M02\n";
+}
+
+/// Operations that begin and end in one place, to different depths, each by its tool: 9 lines.
+std::string nested(const std::string& tools) {
+  std::string program;
+  for (const char tool : tools)
+    program += fmt::format("M06 T10100{}\nS9000 M03\nG00 X50 Y5\nZ20\nG01 Z-{} F500\nX9{}\nX50 Y5\nG00 Z20\nM05\n",
+                           tool, tool, tool);
+  return program + "M02\n";
+}
+
 /// The same with one M05, after the last of them: each M06 stops the spindle.
 std::string with_one_stop(std::string program) {
   const std::string stop = "M05\n";
@@ -237,7 +259,7 @@ const ComparisonCase kCases[] = {
     {"WayOutAndBackLost", kPlunged + "Y100\nX50\nX10\nY150\nM02\n", kPlunged + "Y100\nY150\nM02\n",
      "removed 6-7|-: removed: 2 motions\n"},
     {"LineGained", kHead + "X50 Y50\nX0 Y7\nM02\n", kHead + "X50 Y50\nX100 Y0\nX9 Y9\nX0 Y7\nM02\n",
-     "added 5|5-6: added: 2 motions; the next one takes another path, up to 70.711 mm away\n"},
+     "added 5|5-6: added: 2 motions; the next one takes another path, up to 26.015 mm away\n"},
     {"HoleOfAGrid",
      kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX40\nG01 Z0\nG00 Z40\nX60\nG01 Z0\nG00 Z40\nX80\nG01 Z0\nG00 Z40\nM02\n",
      kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX60\nG01 Z0\nG00 Z40\nX80\nG01 Z0\nG00 Z40\nM02\n",
@@ -396,6 +418,33 @@ const ComparisonCase kCases[] = {
      "moved 4|4: moved by Y1\nfeed 4-5|4-5: F400 instead of F500\n"},
 };
 
+const ComparisonCase kTurnsAndOrders[] = {
+    // A B or C that is lost tilts all that follows. Where it turns, 180 mm from the pivot, the tip swings by 180 (1 -
+    // cos 22.5).
+    {"TurnLost", kHead + "B45\nX50 Y9\nG01 Z0 F500\nX90\nM02\n", kHead + "X50 Y9\nG01 Z0 F500\nX90\nM02\n",
+     "shape 4-7|4-6: another path, 3 motions instead of 4, up to 13.702 mm away, B or C turned by up to 45 degrees\n"},
+    {"TurnOfALineLost", kHead + "X60 C90\nX80\nX90\nM02\n", kHead + "X60\nX80\nX90\nM02\n",
+     "shape 4-6|4-6: B or C turned by up to 90 degrees\n"},
+    // How deep a hole is says nothing about the way beside it.
+    {"DeepHoleGained", kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX60\nG01 Z0\nG00 Z40\nM02\n",
+     kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX40 Y30\nG01 Z-100\nG00 Z40\nX60 Y0\nG01 Z0\nG00 Z40\nM02\n",
+     "added 7|7-9: added: 3 motions; the next one takes another path, up to 30 mm away\n"},
+    // What another tool does elsewhere in the same way has not been moved.
+    {"SpindleStartBeforeTheToolChangeOfOneOfThree", plates(false), plates(true),
+     "reordered 11-12|11-12: order changed\nspeed 14-18|14-18: the spindle stands still, was S9000 M03\n"},
+    {"FramesOfTwoLines", kHead + "G92 X5 Y0 Z0\nX50\nY9\nG92 X25 Y0 Z0\nX60\nY3\nX7\nM02\n",
+     kHead + "G92 X6 Y0 Z0\nX50\nY9\nG92 X26 Y0 Z0\nX60\nY3\nX7\nM02\n",
+     "frame 5-6|5-6: moved by X1: the frame of line 4 is elsewhere\n"
+     "frame 8-10|8-10: moved by X1: the frame of line 7 is elsewhere\n"},
+    // The first one of them leaves out the rapids to where the one before it has ended.
+    {"OperationsThatBeginInOnePlaceSwapped", nested("123"), nested("213"),
+     "reordered 10-18|1-9: order changed: now the first one, was after T101001\n"},
+    {"FirstOperationThatBeginsInOnePlaceIsLast", nested("123"), nested("231"),
+     "reordered 1-9|19-27: order changed: now after T101003, was the first one\n"},
+    {"ParameterInItsFifthDecimal", kHead + "M110 P1=4.5\nM02\n", kHead + "M110 P1=4.50001\nM02\n",
+     "function 4|4: M110 P1=4.50001 instead of M110 P1=4.5\n"},
+};
+
 class ComparisonTable : public testing::TestWithParam<ComparisonCase> {};
 
 TEST_P(ComparisonTable, NamesTheChanges) {
@@ -404,6 +453,17 @@ TEST_P(ComparisonTable, NamesTheChanges) {
 
 INSTANTIATE_TEST_SUITE_P(Programs, ComparisonTable, testing::ValuesIn(kCases),
                          [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(TurnsAndOrders, ComparisonTable, testing::ValuesIn(kTurnsAndOrders),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+/// What is added within a line leaves the rest of that line to the next motion.
+TEST(Comparison, TimesMotionsThatAreAddedWithinALine) {
+  const RecordedRun old_run = recorded(kPlunged + "X1010 F2000\nM02\n");
+  const RecordedRun new_run = recorded(kPlunged + "X500 F2000\nZ10\nZ-5\nX1010\nM02\n");
+  const std::vector<BehaviorChange> changes = compare(old_run, new_run, {});
+  ASSERT_EQ(shown(changes), "added -|5-7: added: 3 motions\n");
+  EXPECT_NEAR(changes.front().seconds, new_run.seconds - old_run.seconds, 0.1);
+}
 
 /// With a large tolerance, ways that differ by less than it have no order.
 TEST(Comparison, TakesNoBumpForAnotherOrder) {
