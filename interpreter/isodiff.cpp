@@ -89,6 +89,10 @@ constexpr Text kOneStandardInput{"only one of the programs can come from standar
 constexpr Text kNoScene{
     "{}: no setup is for this program, so contacts and material are not compared",
     "{}: nessun attrezzaggio è per questo programma, quindi contatti e materiale non si confrontano"};
+constexpr Text kOtherConfigurations{
+    "the programs have different configurations, {} and {}; --config takes one for both",
+    "i programmi hanno configurazioni diverse, {} e {}; --config ne prende una per entrambi"};
+constexpr Text kNone{"none", "nessuna"};
 constexpr Text kGitArguments{"--git is followed by the arguments that git gives, 1, 7 or 9, and by no options",
                              "--git è seguito dagli argomenti che dà git, 1, 7 o 9, e da nessuna opzione"};
 constexpr Text kGitFormat{"--git writes text or markdown, to standard output",
@@ -275,6 +279,18 @@ std::optional<std::array<ProgramMachine, 2>> find_machines(DiffCommandOptions& o
   return std::array{std::move(machines[0]), std::move(machines[1])};
 }
 
+/// Tells of two configurations: the machines may differ where the programs do not.
+void tell_configurations(const DiffCommandOptions& options, const std::array<ProgramMachine, 2>& machines) {
+  const std::filesystem::path& old_file = machines[0].configuration->file;
+  const std::filesystem::path& new_file = machines[1].configuration->file;
+  if (old_file == new_file) return;
+  const Language language = options.reader_language();
+  const auto shown = [&](const std::filesystem::path& file) {
+    return file.empty() ? std::string(kNone.in(language)) : system::generic_name(file);
+  };
+  complain(dialect::format(kOtherConfigurations, language, shown(old_file), shown(new_file)));
+}
+
 /// How both are run and compared; none after an error message.
 std::optional<revisions::CompareOptions> read_compare_options(const DiffCommandOptions& options) {
   revisions::CompareOptions read;
@@ -379,6 +395,7 @@ ExitStatus compare_files(DiffCommandOptions options, const DiffOperands& operand
   configuration::Scenes scenes(options.reader_language());
   const auto machines = find_machines(options, operands, scenes, found);
   if (!machines) return ExitStatus::Failure;
+  tell_configurations(options, *machines);
   const auto compare_options = read_compare_options(options);
   if (!compare_options || !can_write_page(options) ||
       !is_apart(options, operands, {(*machines)[0].configuration->file, (*machines)[1].configuration->file}))

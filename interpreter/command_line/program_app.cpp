@@ -94,7 +94,8 @@ ProgramApp::~ProgramApp() = default;
 /// Translates the library's own words in --help.
 void ProgramApp::speak_italian() {
   static constexpr std::pair<const char*, const char*> kLabels[] = {
-      {"Usage", "Uso"}, {"Positionals", "Argomenti"}, {"OPTIONS", "OPZIONI"}, {"Options", "Opzioni"}};
+      {"Usage", "Uso"},       {"Positionals", "Argomenti"}, {"OPTIONS", "OPZIONI"},
+      {"Options", "Opzioni"}, {"Needs", "Richiede"},        {"Excludes", "Esclude"}};
   for (const auto& [english, italian] : kLabels) app_->get_formatter()->label(english, italian);
   app_->option_defaults()->group("Opzioni");
   for (CLI::Option* const option : app_->get_options()) option->group("Opzioni");
