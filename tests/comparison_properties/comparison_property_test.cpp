@@ -5,7 +5,7 @@
 
 #include "interpreter/comparison/alignment.h"
 #include "tests/comparison/compared.h"
-#include "tests/comparison/random_part.h"
+#include "tests/comparison_properties/random_part.h"
 #include "tests/simulation/random_run.h"
 
 namespace isocnc::comparison {
