@@ -45,6 +45,7 @@ constexpr Text kMotionsAdded{"added: {} motions", "aggiunti: {} movimenti"};
 constexpr Text kMotionsRemoved{"removed: {} motions", "tolti: {} movimenti"};
 constexpr Text kAndOtherPath{"{}; the next one takes another path, up to {} mm away",
                              "{}; il successivo fa un altro percorso, fino a {} mm di distanza"};
+constexpr Text kPlaces{"{}, in {} places", "{}, in {} punti"};
 constexpr Text kReordered{"order changed", "ordine cambiato"};
 constexpr Text kReorderedOperation{"order changed: now {}, was {}", "ordine cambiato: ora {}, era {}"};
 constexpr Text kIsFirst{"the first one", "la prima"};
@@ -137,6 +138,16 @@ std::string and_turned(const std::string& text, const BehaviorChange& change, La
   const std::string degrees = in_thousandths(change.turned);
   return text + (text.empty() ? "" : ", ") +
          (degrees == "1" ? std::string(kTurnedByOne.in(language)) : dialect::format(kTurned, language, degrees));
+}
+
+/// Lets the lines of a change reach to those of another one.
+void include_lines(const BehaviorChange& next, BehaviorChange& change) {
+  const auto include = [](const std::optional<ChangedLines>& more, std::optional<ChangedLines>& lines) {
+    if (more && lines) *lines = {std::min(lines->first, more->first), std::max(lines->last, more->last)};
+    if (more && !lines) lines = more;
+  };
+  include(next.old_lines, change.old_lines);
+  include(next.new_lines, change.new_lines);
 }
 
 std::string moved_in_words(const BehaviorChange& change, Language language) {
@@ -314,20 +325,34 @@ bool shows_seconds(double difference) { return std::abs(difference) >= 0.05; }
 bool shows_mm(double difference) { return std::abs(difference) >= 0.0005; }
 
 std::string changes_text(const ComparedRuns& runs, const TextStyle& style) {
+  constexpr std::size_t kFew = 3;  // So many like changes in a row are told one by one: passes, sides.
   const Language language = style.language;
   const Operations old_operations(runs.old_run);
   const Operations new_operations(runs.new_run);
+  const auto heading_of = [&](const BehaviorChange& change) {
+    return change.new_tool && change.new_lines   ? new_operations.heading(*change.new_tool, *change.new_lines, language)
+           : change.old_tool && change.old_lines ? old_operations.heading(*change.old_tool, *change.old_lines, language)
+                                                 : std::string(kNoTool.in(language));
+  };
   std::string text;
   std::optional<std::string> group;
-  for (const BehaviorChange& change : runs.changes) {
-    const std::string heading =
-        change.new_tool && change.new_lines   ? new_operations.heading(*change.new_tool, *change.new_lines, language)
-        : change.old_tool && change.old_lines ? old_operations.heading(*change.old_tool, *change.old_lines, language)
-                                              : std::string(kNoTool.in(language));
+  for (std::size_t first = 0, last = 0; first < runs.changes.size(); first = last) {
+    BehaviorChange change = runs.changes[first];
+    const std::string heading = heading_of(change);
+    const std::string words = in_words(change, language);
+    const auto is_like = [&](const BehaviorChange& next) {
+      return next.kind == change.kind && in_words(next, language) == words && heading_of(next) == heading;
+    };
+    std::size_t like = first + 1;
+    while (like < runs.changes.size() && is_like(runs.changes[like])) ++like;
+    last = like - first > kFew ? like : first + 1;
     if (group != heading) text += fmt::format("{}{}{}\n", style.paint(kBold), heading, style.paint(kReset));
     group = heading;
-    text += fmt::format("  {}: {}{}{}\n", shown_place(change, language), style.paint(color_of(change.kind)),
-                        in_words(change, language), style.paint(kReset));
+    for (std::size_t i = first + 1; i < last; ++i) include_lines(runs.changes[i], change);
+    const std::string place = shown_place(change, language);
+    text += fmt::format("  {}: {}{}{}\n",
+                        last - first == 1 ? place : dialect::format(kPlaces, language, place, last - first),
+                        style.paint(color_of(change.kind)), words, style.paint(kReset));
   }
   return text;
 }

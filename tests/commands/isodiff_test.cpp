@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "programs.h"
@@ -283,6 +284,22 @@ TEST_F(IsodiffCommand, EachProgramHasTheMachineAboveIt) {
   EXPECT_EQ(diff({"--no-config", "old.iso", "other/old.iso"}).status, 0);
   EXPECT_EQ(diff({"--config", "isocnc.json", "old.iso", "other/old.iso"}).status, 0);
   EXPECT_EQ(diff({"--machine", "isocnc.json", "old.iso", "other/old.iso"}).status, 0);
+}
+
+TEST_F(IsodiffCommand, TellsLikeChangesInOneLine) {
+  const auto holes = [](int count, int depth) {
+    std::string program = "M06 T101001\nG00 X0 Y0 Z20\n";
+    for (int i = 0; i < count; ++i) program += fmt::format("G00 X{} Y5\nZ2\nG01 Z-{} F500\nG00 Z5\n", 10 * i, depth);
+    return program + "G00 Z50\nM02\n";
+  };
+  for (const int count : {3, 4}) {
+    folder_.write("old.iso", holes(count, 10));
+    folder_.write("new.iso", holes(count, 12));
+    const std::string text = diff({"old.iso", "new.iso"}).out;
+    EXPECT_EQ(text.find("lines 5-17, in 4 places: moved by Z-2\n") != std::string::npos, count == 4) << text;
+    EXPECT_EQ(text.find("line 5: moved by Z-2\n  line 9: moved by Z-2\n") != std::string::npos, count == 3) << text;
+    EXPECT_THAT(text, HasSubstr(fmt::format("\n{} differences\n", count)));
+  }
 }
 
 TEST_F(IsodiffCommand, SaysWhereBothStop) {
