@@ -706,13 +706,22 @@ ActionRanges ChangeList::up_to_closing(ActionRanges all) const {
 }
 
 /// Whether changes that follow each other may come from taking the wrong motions for each other: none of them moves one
-/// motion each by one vector, which is larger than what the tolerance makes of places beside each other.
+/// motion each by one vector, which is larger than what the tolerance makes of places beside each other, and other than
+/// that of the motion before.
 bool ChangeList::may_be_mistaken(std::span<const std::size_t> row) const {
   constexpr double kWithinTolerance = 4;
   const ActionRanges& first = places_[row.front()];
+  const auto goes_on = [&](const ActionRanges& at, const Vec3& shift) {
+    if (at.a_begin == 0 || at.b_begin == 0) return false;
+    const MachineAction& left = a(at.a_begin - 1);
+    const MachineAction& right = b(at.b_begin - 1);
+    return left.is_motion() && right.is_motion() &&
+           (right.to.tip - left.to.tip - shift).norm() <= kWithinTolerance * options_.tolerance;
+  };
   return std::none_of(row.begin(), row.end(), [&](std::size_t i) {
     const ActionRanges& at = places_[i];
-    return changes_[i].shift && changes_[i].shift->norm() > kWithinTolerance * options_.tolerance &&
+    return changes_[i].shift && !goes_on(at, *changes_[i].shift) &&
+           changes_[i].shift->norm() > kWithinTolerance * options_.tolerance &&
            at.a_end - at.a_begin == at.b_end - at.b_begin && at.a_begin - first.a_begin == at.b_begin - first.b_begin;
   });
 }

@@ -261,8 +261,9 @@ TEST(ComparisonProperty, APlaceIsMovedAloneBesideLinesInOtherParts) {
 
 /// Random waves in short lines, of which a part is lifted: one change, as far as that is, however short the lines are.
 TEST(ComparisonProperty, ALocalEditOfAFinePathIsFoundAlone) {
-  for (std::uint64_t seed = 1; seed <= tries() / 6; ++seed) {
-    support::Random random(seed);
+  for (std::uint64_t seed = 0; seed <= tries() / 6; ++seed) {
+    constexpr std::uint64_t kBumpOnAShift = 1161;  // Within motions of one vector some are moved a bit otherwise.
+    support::Random random(seed == 0 ? kBumpOnAShift : seed);
     const double step = random.between(4, 50) / 100.0;
     const double length = random.between(20, 60) / 10.0;
     const double height = random.between(3, 100) / 100.0;
