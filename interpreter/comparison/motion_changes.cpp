@@ -40,15 +40,22 @@ class MotionNamer {
         group.steps.push_back(step);
         continue;
       }
-      const bool has_way = name_group(group, &step);
+      const NamedOfClosing closing = name_group(group, &step);
       group.steps.clear();
       const ActionRanges at = actions_of(block, step.motions, part.actions);
       changes_.follow_shift(at, step.shift);
       if (step.kind == MotionStep::Kind::Pair) {
-        if (!has_way) name_closing(block, step, at, around);
-        compare_values(block, step.motions.a_begin, step.motions.b_begin);
+        if (closing != NamedOfClosing::Way) name_closing(block, step, at, around);
+        // Where one of them takes another path, its feed is that of another motion; a rapid there is worth a word.
+        const bool is_other_feed =
+            closing == NamedOfClosing::Path && !a(at.a_end - 1).is_rapid && !b(at.b_end - 1).is_rapid;
+        if (is_other_feed) {
+          changes_.compare_sides(at.a_end - 1, at.b_end - 1);
+        } else {
+          compare_values(block, step.motions.a_begin, step.motions.b_begin);
+        }
       } else {
-        if (!has_way) name_way_of_parts(block, step, at);
+        if (closing != NamedOfClosing::Way) name_way_of_parts(block, step, at);
         same_step(motions, {step.motions.a_begin, step.motions.b_begin}, step.shift,
                   [&](std::size_t i, std::size_t k) { compare_values(block, i, k); });
       }
@@ -147,9 +154,12 @@ class MotionNamer {
     }
   };
 
-  /// Names steps that are not in place, and says whether that includes the way of the motions that close them.
-  bool name_group(StepGroup& group, const MotionStep* closing) {
-    if (group.steps.empty()) return false;
+  /// What is named of the motions that close a group: how they go, or that one of them takes another path.
+  enum class NamedOfClosing : std::uint8_t { None, Way, Path };
+
+  /// Names steps that are not in place.
+  NamedOfClosing name_group(StepGroup& group, const MotionStep* closing) {
+    if (group.steps.empty()) return NamedOfClosing::None;
     pair_all(group);
     const std::size_t pairs = group.count(MotionStep::Kind::Pair);
     const std::size_t only_a = group.count(MotionStep::Kind::OnlyInA);
@@ -166,11 +176,10 @@ class MotionNamer {
         const auto [i, k] = group.pair(*closing);
         if (!goes_same_way(runs_, a(i), b(k))) {
           name_shape(group.closed(closing), group.closed(closing), shift);
-          return true;
+          return NamedOfClosing::Way;
         }
       }
-      name_count(group, closing, only_b > 0);
-      return false;
+      return name_count(group, closing, only_b > 0) ? NamedOfClosing::Path : NamedOfClosing::None;
     }
     const std::optional<Vec3> common = common_shift(group);
     const bool has_same_ways = std::all_of(group.steps.begin(), group.steps.end(), [&](const MotionStep& step) {
@@ -183,14 +192,14 @@ class MotionNamer {
     } else if (!name_shortened(group, common)) {
       name_shape(group.all(), group.closed(closing), shift);
     }
-    return false;
+    return NamedOfClosing::None;
   }
 
   /// Motions that only one run has. The one that follows them may go where the other run never goes: a retract is lost,
-  /// and the rapid above the part becomes a cut through it.
-  void name_count(const StepGroup& group, const MotionStep* closing, bool is_added) {
+  /// and the rapid above the part becomes a cut through it. Says whether it does.
+  bool name_count(const StepGroup& group, const MotionStep* closing, bool is_added) {
     BehaviorChange& change = changes_.add(is_added ? ChangeKind::Added : ChangeKind::Removed, group.all());
-    if (closing == nullptr || closing->kind != MotionStep::Kind::Pair) return;
+    if (closing == nullptr || closing->kind != MotionStep::Kind::Pair) return false;
     const Vec3& shift = group.steps.front().shift;
     const ActionRanges at = group.closed(closing);
     const ActionRanges next{at.a_end - 1, at.a_end, at.b_end - 1, at.b_end};
@@ -205,7 +214,7 @@ class MotionNamer {
     for (Vec3& point : a_chain) point += shift;
     const std::optional<double> off = is_added ? distance_from(a_chain, b_chain, deviation, distances_left())
                                                : distance_from(b_chain, a_chain, deviation, distances_left());
-    if (!off || *off <= options_.tolerance) return;
+    if (!off || *off <= options_.tolerance) return false;
     // How far the motion itself goes away; where what is added goes, its own numbers say.
     std::vector<Vec3> next_chain = is_added ? chain(runs_.b, next.b_begin, next.b_end, deviation)
                                             : chain(runs_.a, next.a_begin, next.a_end, deviation);
@@ -213,7 +222,7 @@ class MotionNamer {
       for (Vec3& point : next_chain) point += shift;
     const std::optional<double> next_off =
         distance_from(next_chain, is_added ? a_chain : b_chain, deviation, distances_left());
-    if (!next_off) return;
+    if (!next_off) return false;
     change.distance = std::max(*off, *next_off);
     change.end_distance = shown_distance(at, shift).value_or(0);
     if (is_added) {
@@ -223,6 +232,7 @@ class MotionNamer {
       change.new_lines = lines_of(runs_.b, next.b_begin, next.b_end);
       change.new_tool = tool_of(runs_.b, b(next.b_begin));
     }
+    return true;
   }
 
   /// Whether one run has a rapid where the other one has a feed move, which has the same rapid, as a way, beside it: it

@@ -249,6 +249,10 @@ const ComparisonCase kCases[] = {
     {"RetractLost", kPlunged + "Y100\nG00 Z50\nY150\nG01 Z-5\nY200\nG00 Z50\nM02\n",
      kPlunged + "Y100\nY150\nG01 Z-5\nY200\nG00 Z50\nM02\n",
      "removed 6-7|6: removed: 2 motions; the next one takes another path, up to 55 mm away\n"},
+    // The cut there begins with the feed of the next line, which is not new.
+    {"RetractLostBeforeACut", kPlunged + "X50 F8000\nG00 Z40\nY90\nG01 Z-5 F2000\nY99 F8000\nG00 Z40\nM02\n",
+     kPlunged + "X50 F8000\nY90\nG01 Z-5 F2000\nY99 F8000\nG00 Z40\nM02\n",
+     "removed 6-7|6: removed: 2 motions; the next one takes another path, up to 45 mm away\n"},
     {"RetractLostBeforeARapid", kPlunged + "Y100\nG00 Z50\nG00 Y150\nG01 Z-5\nY200\nG00 Z50\nM02\n",
      kPlunged + "Y100\nG00 Y150\nG01 Z-5\nY200\nG00 Z50\nM02\n",
      "removed 6-7|6: removed: 2 motions; the next one takes another path, up to 55 mm away\n"
