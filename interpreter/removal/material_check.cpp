@@ -142,7 +142,7 @@ void MaterialCheck::append_pieces(bool is_feed) {
   const Vec3 up = frames_[stretch.frame].axes.col(2);
   stretch.rise = up.dot(end_of(pieces_.back().path) - start_of(pieces_.front().path).origin);
   stretch.way = way_taken_;
-  const bool is_in_phases = !is_feed && asks_ && machine_.motion.rapid_motion == kinematics::RapidMotion::Independent;
+  const bool is_in_phases = !is_feed && asks_;
   for (TipPath& piece : pieces_) {
     stretch.length += length_of(piece.path);
     piece.path = moved(std::move(piece.path), -workpiece_.origin);
@@ -156,7 +156,7 @@ void MaterialCheck::append_pieces(bool is_feed) {
   if (stretch.stretch.ends_move || stretch.is_standing) append_rapid();
 }
 
-/// Adds the sweeps of a rapid in which each joint has phases of its own. How deep the cutter goes counts from the
+/// Adds the sweeps of a rapid, which has phases of acceleration and jerk. How deep the cutter goes counts from the
 /// material before all of it: else each phase would meet what the one before has left.
 void MaterialCheck::append_rapid() {
   if (rapid_.empty()) return;
@@ -655,10 +655,12 @@ void MaterialCheck::find_first_touch(OpenIncident& episode, const Stock& before)
   episode.incident.time = stretch.time_at(touching);
 }
 
-/// Whether shank, holder and nose were already, at the start of a path, in all that the cutter meets on it.
-bool MaterialCheck::has_body_been_there(const Stock& before, const SweepUse& use, const SweepPath& path) const {
+/// Whether shank, holder and nose were already, at the start of a rapid, in all that the cutter meets on a piece of it.
+bool MaterialCheck::has_body_been_there(const Stock& before, std::size_t sweep) const {
   Stock without = before;
-  const solids::AxisPlacement start = start_of(path);
+  std::size_t first = sweep;  // What a rapid asks stands in a row.
+  while (first > 0 && uses_[first - 1].role == uses_[sweep].role) --first;
+  const solids::AxisPlacement start = start_of(sweeps_[first].path);
   bool is_in = false;
   for (const auto& [part, role] : {std::pair(ToolPart::Shank, Role::Shank), std::pair(ToolPart::Holder, Role::Holder),
                                    std::pair(ToolPart::Nose, Role::Nose)}) {
@@ -667,7 +669,7 @@ bool MaterialCheck::has_body_been_there(const Stock& before, const SweepUse& use
     const Sweep sweep{.body = body, .path = placed(stock::StraightPath{start, start.origin}, role)};
     is_in = without.apply({&sweep, 1}).front().meets() || is_in;
   }
-  return is_in && !meets(without, *forms_->passing_cutter(), placed(path, use.role));
+  return is_in && !meets(without, *forms_->passing_cutter(), sweeps_[sweep].path);
 }
 
 /// The height by which a path must be raised so that a body meets nothing; none if that does not help.
@@ -709,8 +711,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
     case IncidentKind::BodyInMaterial: {
       // The whole body meets more than what counts of it.
       const SweepOutcome whole = ask(before, *whole_body(incident.part), path);
-      if (incident.kind == IncidentKind::RapidInMaterial)
-        incident.follows_body = has_body_been_there(before, use, path);
+      if (incident.kind == IncidentKind::RapidInMaterial) incident.follows_body = has_body_been_there(before, index);
       incident.amount = whole.depth;
       incident.point = in_machine(whole.point);
       break;

@@ -164,7 +164,7 @@ class MaterialCheck {
   void touch(const IncidentKey& key, std::size_t sweep, const stock::SweepOutcome& outcome);
   void note_heights(const std::vector<bool>& has_cut);
   static bool does_height_help(const UncutStretch& stretch);
-  bool has_body_been_there(const stock::Stock& before, const SweepUse& use, const stock::SweepPath& path) const;
+  bool has_body_been_there(const stock::Stock& before, std::size_t sweep) const;
   void note_ways(const std::vector<bool>& has_cut);
   void end_way();
   void look_closely(stock::Stock before);
