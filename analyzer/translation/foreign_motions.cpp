@@ -72,11 +72,7 @@ bool TranslationRun::may_move(CurrentBlock& current, bool feeds) {
 
 /// Whether a tool is mounted that the program means; the first one may come from the map.
 bool TranslationRun::has_tool(CurrentBlock& current) {
-  if (!tool_is_mounted_ && !tool_is_wrong_ && !setup_.map.start.empty()) {
-    const int spindle = std::exchange(spindle_, 5);
-    mount_tool(setup_.map.start);
-    spindle_ = spindle;
-  }
+  mount_first_tool();
   if (tool_is_mounted_ && !tool_is_wrong_) return true;
   const bool is_first = !tool_is_wrong_ && said_once_.insert(Untranslatable::NoTool).second;
   const std::size_t at = current.words.empty() ? 0 : current.words.front().at;
@@ -87,7 +83,8 @@ bool TranslationRun::has_tool(CurrentBlock& current) {
 /// G53: the block's coordinates are those of the machine.
 void TranslationRun::move_in_machine(CurrentBlock& current) {
   if (now_.incremental || motion_ < 0 || motion_ > 1)
-    return refuse_motion(current, BlockRefusal{Untranslatable::MachineCoordinates, current.g_of(MachineCoordinates).at, {}});
+    return refuse_motion(current,
+                         BlockRefusal{Untranslatable::MachineCoordinates, current.g_of(MachineCoordinates).at, {}});
   if (!has_tool(current)) return;
   const bool is_lost = std::any_of(lost_.begin(), lost_.end(), [](bool lost) { return lost; });
   if (is_lost && motion_ == 1)

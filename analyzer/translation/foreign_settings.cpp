@@ -128,6 +128,11 @@ void TranslationRun::add_tool(CurrentBlock& current) {
   mount_tool(is_mapped ? found->second : "000000");
 }
 
+/// The tool that the map names for the start, where the program has mounted none.
+void TranslationRun::mount_first_tool() {
+  if (!tool_is_mounted_ && !tool_is_wrong_ && !setup_.map.start.empty()) mount_tool(setup_.map.start);
+}
+
 /// The other controls stop the spindle for it; this one leaves it to the program.
 void TranslationRun::mount_tool(const std::string& code) {
   if (std::exchange(spindle_, 5) != 5) writer_.add_code("M05");
@@ -138,6 +143,8 @@ void TranslationRun::mount_tool(const std::string& code) {
 void TranslationRun::add_spindle(CurrentBlock& current) {
   const ForeignWord* const s = current.find('S');
   const bool stops = has_function(current.ms, 5);
+  const bool starts = has_function(current.ms, 3) || has_function(current.ms, 4);
+  if (starts) mount_first_tool();  // Its M06 would stop the spindle afterwards.
   if (s != nullptr && suspended_by_.contains(SurfaceSpeed)) {
     append_word(current.remark, "S" + s->digits);
   } else if (s != nullptr && s->value > 0) {

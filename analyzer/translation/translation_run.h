@@ -120,6 +120,7 @@ class TranslationRun {
   void apply_suspensions(CurrentBlock& current);
   void apply_offsets(CurrentBlock& current);
   void add_tool(CurrentBlock& current);
+  void mount_first_tool();
   void mount_tool(const std::string& code);
   void add_spindle(CurrentBlock& current);
   void add_functions(CurrentBlock& current);
