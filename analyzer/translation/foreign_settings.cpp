@@ -144,18 +144,20 @@ void TranslationRun::add_spindle(CurrentBlock& current) {
   const ForeignWord* const s = current.find('S');
   const bool stops = has_function(current.ms, 5);
   const bool starts = has_function(current.ms, 3) || has_function(current.ms, 4);
-  if (starts) mount_first_tool();  // Its M06 would stop the spindle afterwards.
+  const bool stops_later = setup_.control == SourceControl::Fanuc;  // M05 after the motion of its block.
+  if (starts) mount_first_tool();                                   // Its M06 would stop the spindle afterwards.
   if (s != nullptr && suspended_by_.contains(SurfaceSpeed)) {
     append_word(current.remark, "S" + s->digits);
   } else if (s != nullptr && s->value > 0) {
-    current.before.push_back("S" + s->digits);
+    // The others change the speed at once; here an S waits for the next M03 or M04.
+    const bool turns = spindle_ != 5 && !starts && (!stops || (stops_later && has_motion(current)));
+    current.before.push_back(turns ? fmt::format("S{} M{:02}", s->digits, spindle_) : "S" + s->digits);
   } else if (s != nullptr && !stops) {
     leave_out(current, Untranslatable::SpeedNotPositive, *s);
   }
   for (const int m : current.ms) {
     if (m < 3 || m > 5) continue;
-    const bool comes_after = m == 5 && setup_.control == SourceControl::Fanuc;
-    (comes_after ? current.after : current.before).push_back(fmt::format("M{:02}", m));
+    (m == 5 && stops_later ? current.after : current.before).push_back(fmt::format("M{:02}", m));
     spindle_ = m;
   }
 }

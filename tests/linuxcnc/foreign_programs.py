@@ -264,8 +264,9 @@ class ForeignWriter:
             self.at[axis] = value - self.offset[axis]
 
     def other(self) -> None:
+        speed = f"S{self.random.randint(1000, 20000)}"
         self.write(
             self.random.choice(
-                ["G4 P0.5", "M5", f"S{self.random.randint(1000, 20000)} M4", "G61", "G64 P0.01", "T1 M6", "G40", "(note)"]
+                ["G4 P0.5", "M5", f"{speed} M4", "M3", speed, "G61", "G64 P0.01", "T1 M6", "G40", "(note)"]
             )
         )

@@ -2,8 +2,8 @@
 """Holds isofmt --from linuxcnc against LinuxCNC's rs274: it runs the original, isorun the translation.
 
 The originals are random programs (foreign_programs.py) and programs that come with LinuxCNC. Ends, centers, planes,
-senses and sweeps of all motions, feeds and dwells must be the same, as far as rs274 prints them, and isolint must find no
-error in the translation.
+senses and sweeps of all motions, feeds, dwells and the speed of the spindle must be the same, as far as rs274 prints
+them, and isolint must find no error in the translation.
 
 Exit status: 0 all the same, 1 something differs, 2 could not compare, 77 skipped, as there is no rs274.
 """
@@ -73,18 +73,33 @@ def turns_of(arc: Event) -> list[Event]:
     return [*turns, replace(arc, values=last | {"sweep": sweep - math.copysign(360 * whole, sweep)})]
 
 
-def compared(events: list[Event]) -> list[Event]:
-    """Without what moves nothing, and without lines, which the translation has others of."""
+def events_of_translation(trace: str) -> list[Event]:
+    """With an M05 for each M06, which stops the spindle; rs274 prints one by itself."""
+    return events_of_isorun(trace.replace('"kind":"tool"', '"kind":"spindle","number":5'))
+
+
+def compared(events: list[Event], changes_speed_at_once: bool) -> list[Event]:
+    """Motions with the spindle's speed, negative for M04, and dwells. Without what moves nothing, and without lines, which
+    the translation has others of. `changes_speed_at_once`: an S without M03 or M04 does, where the spindle turns."""
     kept: list[Event] = []
+    speed = turns = 0.0
+    sense = 0
     for event in events:
+        if event.kind == "spindle":
+            speed = event.values.get("speed", speed)
+            if "number" in event.values:
+                sense = {3: 1, 4: -1, 5: 0}[event.values["number"]]
+            if changes_speed_at_once or "number" in event.values:
+                turns = sense * speed
         if event.kind not in COMPARED:
             continue
         if event.kind in ("rapid", "feed"):
             ends = ([event.values[f"{end} {axis}"] for axis in LINEAR] for end in ("from", "to"))
             if math.dist(*ends) < MOVES_BY:
                 continue
-        kept += turns_of(event) if event.kind == "arc" else [event]
-    return [replace(event, line=0) for event in kept]
+        with_spindle = replace(event, line=0, values=event.values | {"spindle": turns})
+        kept += turns_of(with_spindle) if event.kind == "arc" else [with_spindle]
+    return kept
 
 
 def difference(ours: list[Event], theirs: list[Event], unit: float) -> str:
@@ -134,7 +149,7 @@ class Translation:
         canon, theirs_fail = output_of([self.rs274, "-t", self.tools.name, "-g", str(source)], self.folder)
         text = source.read_text(errors="replace").upper().replace(" ", "")
         unit = MM_PER_INCH if "G20" in text else 1.0
-        ours, theirs = compared(events_of_isorun(trace)), compared(UnnumberedReader().read(canon))
+        ours, theirs = compared(events_of_translation(trace), False), compared(UnnumberedReader().read(canon), True)
         self.events += len(ours)
         reports = [f"  {name} fails: {why}" for name, why in (("isorun", ours_fail), ("rs274", theirs_fail)) if why]
         return "\n".join([*reports, *filter(None, [difference(ours, theirs, unit)])])

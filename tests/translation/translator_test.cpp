@@ -253,6 +253,28 @@ TEST(Translation, TakesFanucWordsAsFanucDoes) {
   EXPECT_EQ(translated("M5 G0 X1"), "M05 G00 X1\n");
 }
 
+/// An S alone waits for the next M03 or M04 here, and changes the speed at once there.
+TEST(Translation, ChangesTheSpeedOfASpindleThatTurns) {
+  struct Case {
+    SourceControl control;
+    std::string_view original, expected;
+  };
+  constexpr auto kFanuc = SourceControl::Fanuc;
+  constexpr auto kLinuxCnc = SourceControl::LinuxCnc;
+  constexpr auto kGrbl = SourceControl::Grbl;
+  for (const auto& [control, original, expected] : std::vector<Case>{
+           {kFanuc, "S3000 M3\nS6000\nG0 X5.", "S3000 M03\nS6000 M03\nG00 X5.\nM05\n"},
+           {kLinuxCnc, "S3000 M4\nS6000 G0 X5", "S3000 M04\nS6000 M04 G00 X5\nM05\n"},
+           {kGrbl, "M3 S3000\nG1 X5 F9 S6000\nM4 S1", "S3000 M03\nS6000 M03 G01 X5 F9\nS1 M04\nM05\n"},
+           {kLinuxCnc, "S1\nM3\nM5\nS2\nM3", "S1\nM03\nM05\nS2\nM03\nM05\n"},
+           {kLinuxCnc, "S1 M3\nS2 M5", "S1 M03\nS2 M05\n"},
+           {kFanuc, "S1 M3\nS2 M5", "S1 M03\nS2 M05\n"},
+           {kFanuc, "S1 M3\nG0 X5. S2 M5", "S1 M03\nS2 M03 G00 X5. M05\n"},
+           {kLinuxCnc, "S1 M3\nT2 M6\nS2\nM3", "S1 M03\nM05\nM06 T101002\nS2\nM03\nM05\n"},
+       })
+    EXPECT_EQ(translated(original, control), expected) << original;
+}
+
 TEST(Translation, CountsThousandthsWhereTheMapSaysSo) {
   const std::string text = "G00 X1500 Y0 Z2.\nM30\n";
   TranslationSetup setup = setup_for(SourceControl::Fanuc);
