@@ -60,7 +60,7 @@ std::optional<BlockRefusal> TranslationRun::classify_words(CurrentBlock& current
       current.gs.emplace_back(tenths, role);
       const bool moves = role == Motion || role == Cycle;
       if (moves && std::exchange(has_motion, true)) fail(Untranslatable::UnknownWord, word);
-      if (role == Unknown) fail(Untranslatable::UnknownG, word);
+      if (role == Unknown || role == PresetShift) fail(Untranslatable::UnknownG, word);
       if (role == CycleUnknown) fail(Untranslatable::CycleUnknown, word);
     } else if (word.letter == 'M') {
       const int tenths = word.tenths();
@@ -88,6 +88,7 @@ std::string TranslationRun::letters_of(const CurrentBlock& current) const {
     if (role == CurvedPlane || role == CurvedPlaneOff) letters += "XYZABC";
     if (role == Tilt || role == Scale || role == Mirror || role == MirrorOff) letters += "XYZIJKRPQ";
     if (role == Compensation) letters += 'D';
+    if (role == CompensationGiven) letters += "DL";
     if (role == Length || role == LengthOff) letters += 'H';
     if (role == LengthGiven) letters += "HXYZ";
     if (role == Ignored || role == Continuous || role == PolarOff) letters += "PQRIJKXYZ";
@@ -110,9 +111,11 @@ std::string TranslationRun::letters_of(const CurrentBlock& current) const {
 
 /// Whether coordinates in the block are those of a motion.
 bool TranslationRun::takes_place_as_motion(const CurrentBlock& current) const {
-  static constexpr ForeignRole kOthers[] = {Dwell, Data,  Reference, SetPosition, LocalShift, Rotation,
-                                            Tilt,  Scale, Mirror,    MirrorOff,   LengthGiven};
-  return std::none_of(std::begin(kOthers), std::end(kOthers), [&](ForeignRole role) { return current.has(role); });
+  static constexpr ForeignRole kOthers[] = {Dwell,    Data, Reference, SetPosition, LocalShift,
+                                            Rotation, Tilt, Scale,     Mirror,      MirrorOff};
+  const bool gives_length = current.has(LengthGiven) && setup_.control != SourceControl::Fanuc;
+  return !gives_length &&
+         std::none_of(std::begin(kOthers), std::end(kOthers), [&](ForeignRole role) { return current.has(role); });
 }
 
 std::optional<BlockRefusal> TranslationRun::check_letters(CurrentBlock& current) {

@@ -32,6 +32,7 @@ enum class ForeignRole : std::uint8_t {
   TurnsPerMinute,
   CompensationOff,
   Compensation,
+  CompensationGiven,  ///< With a radius of its own.
   Length,
   LengthOff,
   LengthGiven,
@@ -40,6 +41,7 @@ enum class ForeignRole : std::uint8_t {
   LocalShift,
   SetPosition,
   ClearShift,
+  PresetShift,  ///< Of Fanuc: ends shifts axis by axis.
   SuspendShift,
   RestoreShift,
   Data,

@@ -40,7 +40,10 @@ void TranslationRun::add_frames(CurrentBlock& current) {
     if (role == ClearShift || role == SuspendShift || role == RestoreShift) {
       if (role == ClearShift) kept_shift_ = Vec3::Zero();
       const std::optional<Vec3> shift = role == RestoreShift ? kept_shift_ : std::optional<Vec3>(Vec3::Zero());
-      frame_is_wrong_ = !shift;
+      if (shift)
+        unknown_.erase(UnknownMode::Shift);
+      else
+        unknown_.insert(UnknownMode::Shift);
       change_frame([&] { frames_.shift = shift.value_or(Vec3::Zero()); });
     }
     if (role == Data) set_data(current);
@@ -52,16 +55,23 @@ void TranslationRun::add_frames(CurrentBlock& current) {
 
 /// A block that is left as a comment has changed the frame: what is not known of it stops the motions below.
 void TranslationRun::apply_refused_frames(CurrentBlock& current) {
-  static constexpr ForeignRole kShifts[] = {LocalShift, SetPosition, ClearShift, SuspendShift, RestoreShift, Data};
+  static constexpr ForeignRole kShifts[] = {SetPosition, ClearShift, SuspendShift, RestoreShift, PresetShift};
+  const bool is_linuxcnc = setup_.control == SourceControl::LinuxCnc;
   for (const auto& [tenths, role] : current.gs) {
     if (role == ZeroPoint || role == FurtherZero) select_zero(current, tenths, role);
-    if (role == Data) forget_zero(current);
+    if (role == Data) {
+      unknown_.insert(UnknownMode::ZeroPoint);
+      forget_zero(current);
+    }
+    if (role == LocalShift) unknown_.insert(is_linuxcnc ? UnknownMode::Shift : UnknownMode::LocalShift);
+    if (role == PresetShift) unknown_.insert(UnknownMode::LocalShift);
     if (tenths == 281 || tenths == 301) lost_references_.insert(tenths - 1);
     if (role == Rotation) suspended_by_.insert(Rotation);
     if (role == RotationOff) end_rotation();
     if (role == Compensation || role == CompensationOff) compensation_ = tenths / 10;
   }
-  for (const ForeignRole shift : kShifts) frame_is_wrong_ = frame_is_wrong_ || current.has(shift);
+  for (const ForeignRole shift : kShifts)
+    if (current.has(shift)) unknown_.insert(UnknownMode::Shift);
   if (current.has(SetPosition) || current.has(LocalShift)) kept_shift_.reset();
 }
 
@@ -73,9 +83,9 @@ void TranslationRun::end_rotation() {
 }
 
 void TranslationRun::select_zero(CurrentBlock& current, int name, ForeignRole role) {
+  unknown_.erase(UnknownMode::ZeroPoint);
   if (is_further_zero(current, role)) return select_further_zero(current, name);
   change_frame([&] { frames_.selected = name; });
-  frame_is_wrong_ = false;
   if (frames_.has_zero()) return;
   const std::string text = zero_text(name);
   for (const ForeignWord& word : current.words)
@@ -96,7 +106,6 @@ bool TranslationRun::is_further_zero(const CurrentBlock& current, ForeignRole ro
 /// No motion is written until another zero point is selected.
 void TranslationRun::select_further_zero(CurrentBlock& current, int name) {
   change_frame([&] { frames_.selected = -name; });
-  frame_is_wrong_ = false;
   said_once_.insert(Untranslatable::ZeroPointMissing);
   for (const ForeignWord& word : current.words)
     if (word.letter == 'G' && word.tenths() == name) leave_out(current, Untranslatable::UnknownG, word);
@@ -109,6 +118,9 @@ void TranslationRun::forget_zero(const CurrentBlock& current) {
   const ForeignWord* const p = current.find('P');
   const bool is_other_table = l != nullptr && !l->is_formula && l->value != 2 && l->value != 20;
   if (is_other_table) return;
+  const bool is_external = setup_.control == SourceControl::Fanuc && (p == nullptr || p->is_formula || p->value == 0);
+  if (is_external) unknown_.insert(UnknownMode::ExternalShift);
+  if (is_external && p != nullptr && !p->is_formula) return;
   const bool is_known = p != nullptr && !p->is_formula && p->value >= 0 && p->value <= 9;
   if (!is_known) return frames_.forget_zeros();
   frames_.forget_zero(zero_by_number(static_cast<int>(p->value)).value_or(frames_.selected));
@@ -117,21 +129,25 @@ void TranslationRun::forget_zero(const CurrentBlock& current) {
 /// On LinuxCNC it is the shift of G92 under another name.
 void TranslationRun::set_local_shift(const CurrentBlock& current) {
   const bool is_linuxcnc = setup_.control == SourceControl::LinuxCnc;
-  if (is_linuxcnc) frame_is_wrong_ = false;
+  if (current.find('X') != nullptr && current.find('Y') != nullptr && current.find('Z') != nullptr)
+    unknown_.erase(is_linuxcnc ? UnknownMode::Shift : UnknownMode::LocalShift);
   change_frame([&] {
     Vec3& shift = is_linuxcnc ? frames_.shift : frames_.local;
     for (int axis = 0; axis < 3; ++axis)
       if (const ForeignWord* const word = current.find(kFrameAxes[axis])) shift[axis] = length_of(*word);
   });
-  if (is_linuxcnc) kept_shift_ = frames_.shift;
+  if (is_linuxcnc) kept_shift_ = unknown_.contains(UnknownMode::Shift) ? std::nullopt : std::optional(frames_.shift);
 }
+
+/// Whether the coordinates of the program are at known places of the machine.
+bool TranslationRun::knows_frame() const { return unknown_.empty(); }
 
 /// G92 of the others: the tool is at these coordinates.
 void TranslationRun::set_position(CurrentBlock& current) {
   const auto give_up = [&](BlockRefusal refusal) {
     report(current, std::move(refusal));
     keep_as_comment(current);
-    frame_is_wrong_ = true;
+    unknown_.insert(UnknownMode::Shift);
     kept_shift_.reset();
   };
   const ForeignWord& g92 = current.g_of(SetPosition);
@@ -139,13 +155,20 @@ void TranslationRun::set_position(CurrentBlock& current) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const ForeignWord* const word = current.find(kFrameAxes[axis]); word != nullptr && !place_.known[axis])
       return give_up({Untranslatable::PlaceUnknown, word->at, {"G92", std::string(1, word->letter)}});
+  const bool gives_all = current.find('X') != nullptr && current.find('Y') != nullptr && current.find('Z') != nullptr;
+  if (gives_all && unknown_ == std::set{UnknownMode::Shift}) unknown_.clear();
+  if (!knows_frame()) {  // What this adds to is not known.
+    unknown_.insert(UnknownMode::Shift);
+    kept_shift_.reset();
+    return keep_as_comment(current);
+  }
   for (int axis = 0; axis < 3; ++axis) {
     const ForeignWord* const word = current.find(kFrameAxes[axis]);
     if (word == nullptr) continue;
     frames_.shift[axis] += place_.at[axis] - length_of(*word);
     place_.at[axis] = length_of(*word);
   }
-  kept_shift_ = frame_is_wrong_ ? std::nullopt : std::optional(frames_.shift);
+  kept_shift_ = frames_.shift;
 }
 
 /// G10 L2 gives a zero point in machine coordinates, G10 L20 by the coordinates that the tool has there.
@@ -162,13 +185,19 @@ void TranslationRun::set_data(CurrentBlock& current) {
   const auto give_up = [&](BlockRefusal refusal) {
     report(current, std::move(refusal));
     keep_as_comment(current);
-    frame_is_wrong_ = frame_is_wrong_ || (is_zero && (name == frames_.selected || number == 0));
-    if (is_zero) forget_zero(current);
+    if (!is_zero) return;
+    if (name == frames_.selected || number == 0) unknown_.insert(UnknownMode::ZeroPoint);
+    forget_zero(current);
   };
   const ForeignWord& g10 = current.g_of(Data);
-  const bool is_known_form =
-      is_zero && number >= (is_fanuc ? 1 : 0) && number <= last && (r == nullptr || r->value == 0);
-  if (!is_known_form) return give_up({Untranslatable::UnknownG, g10.at, {l == nullptr ? "G10" : "G10 L" + l->digits}});
+  const bool is_known_form = is_zero && number >= (is_fanuc ? 1 : 0) && number <= last &&
+                             (r == nullptr || r->value == 0) &&
+                             (number > 0 || !unknown_.contains(UnknownMode::ZeroPoint)) &&
+                             (!by_place || !unknown_.contains(UnknownMode::Shift));
+  if (!is_known_form) {
+    const std::string of_all = is_fanuc && is_zero && number == 0 ? " P0" : "";
+    return give_up({Untranslatable::UnknownG, g10.at, {l == nullptr ? "G10" : "G10 L" + l->digits + of_all}});
+  }
   const std::optional<Vec3> old = frames_.zero(name);
   Vec3 zero = old.value_or(Vec3::Zero());
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -197,7 +226,8 @@ void TranslationRun::set_rotation(CurrentBlock& current) {
   const ForeignWord* const r = current.find('R');
   const auto center = [&](int axis) -> std::optional<double> {
     if (const ForeignWord* const word = current.find(kFrameAxes[axis])) return length_of(*word);
-    return place_.known[static_cast<std::size_t>(axis)] ? std::optional(place_.at[axis]) : std::nullopt;
+    const bool is_known = knows_frame() && place_.known[static_cast<std::size_t>(axis)];
+    return is_known ? std::optional(place_.at[axis]) : std::nullopt;
   };
   const std::optional<double> u = center(plane.u);
   const std::optional<double> v = center(plane.v);
@@ -264,6 +294,7 @@ void TranslationRun::go_to_reference(CurrentBlock& current, int name) {
   const bool names_axes = current.has_any("XYZ");
   const KnownPlace via = target(current);
   const bool goes_by_way = names_axes && [&] {
+    if (!now_.incremental && !knows_frame()) return true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (current.find(kFrameAxes[axis]) == nullptr) continue;
       const auto i = static_cast<Eigen::Index>(axis);

@@ -56,7 +56,8 @@ bool TranslationRun::may_move(CurrentBlock& current, bool feeds) {
                             : std::nullopt);
   }
   const auto stops_motions = [&](ForeignRole role) { return role != SurfaceSpeed && (role != PerTurn || feeds); };
-  if (frame_is_wrong_ || std::any_of(suspended_by_.begin(), suspended_by_.end(), stops_motions)) return refused({});
+  if (std::any_of(suspended_by_.begin(), suspended_by_.end(), stops_motions)) return refused({});
+  if (!knows_frame()) return refused(missing_modes(at));
   const ForeignWord* const z = current.find('Z');
   if (length_off_ && z != nullptr) return refused(BlockRefusal{Untranslatable::LengthOff, z->at, {}});
   if (!turned_by_.empty()) {
@@ -68,6 +69,17 @@ bool TranslationRun::may_move(CurrentBlock& current, bool feeds) {
   if (is_lost && (feeds || now_.incremental)) return refused(BlockRefusal{Untranslatable::LostPlace, at, {}});
   turned_by_.clear();
   return true;
+}
+
+/// What the program must give anew before a motion; nothing where it cannot.
+std::optional<BlockRefusal> TranslationRun::missing_modes(std::size_t at) const {
+  static constexpr std::pair<UnknownMode, std::string_view> kGs[] = {
+      {UnknownMode::ZeroPoint, "G54"}, {UnknownMode::Shift, "G92"}, {UnknownMode::LocalShift, "G52"}};
+  if (unknown_.contains(UnknownMode::ExternalShift)) return std::nullopt;
+  std::string names;
+  for (const auto& [mode, name] : kGs)
+    if (unknown_.contains(mode)) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  return BlockRefusal{Untranslatable::ModeUnknown, at, {names}};
 }
 
 /// Whether a tool is mounted that the program means; the first one may come from the map.

@@ -57,14 +57,16 @@ void TranslationRun::apply_suspensions(CurrentBlock& current) {
       {PerTurn, PerMinute, Untranslatable::FeedPerTurn},
       {SurfaceSpeed, TurnsPerMinute, Untranslatable::SurfaceSpeed, "D"},
       {LengthGiven, LengthOff, Untranslatable::LengthGiven, "HXYZ"},
+      {CompensationGiven, CompensationOff, Untranslatable::CompensationGiven, "DL"},
   };
   std::size_t place = 0;
   for (const ForeignWord& word : current.words) {
     if (word.letter != 'G') continue;
     const ForeignRole role = current.gs[place++].second;
     for (const SuspensionRow& row : kRows) {
-      if (role == row.off || (row.on == LengthGiven && role == Length) || (row.on == PerTurn && role == InverseTime))
-        suspended_by_.erase(row.on);
+      const bool replaces = (row.on == LengthGiven && role == Length) || (row.on == PerTurn && role == InverseTime) ||
+                            (row.on == CompensationGiven && role == Compensation);
+      if (role == row.off || replaces) suspended_by_.erase(row.on);
       if (role != row.on) continue;
       suspended_by_.insert(row.on);
       leave_out(current, row.reason, word);
@@ -80,7 +82,7 @@ void TranslationRun::apply_offsets(CurrentBlock& current) {
   const ForeignWord* const h = current.find('H');
   const ForeignWord* const d = current.find('D');
   const bool ends_length = current.has(LengthOff) || (h != nullptr && h->value == 0);
-  const bool takes_length = !ends_length && (current.has(Length) || h != nullptr);
+  const bool takes_length = !ends_length && !current.has(LengthGiven) && (current.has(Length) || h != nullptr);
   const auto is_of_other = [&](const ForeignWord* word, int offset) {
     return word != nullptr && tool_ >= 0 && word->value != static_cast<double>(tool_) + offset;
   };
@@ -106,6 +108,7 @@ void TranslationRun::apply_offsets(CurrentBlock& current) {
   }
   for (const auto& [tenths, role] : current.gs)
     if (role == Compensation || role == CompensationOff) compensation_ = tenths / 10;
+  if (current.has(CompensationGiven)) compensation_ = 40;
 }
 
 void TranslationRun::add_tool(CurrentBlock& current) {

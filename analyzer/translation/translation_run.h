@@ -38,6 +38,14 @@ struct WrittenFrame {
   std::optional<TurnedCoordinates> rotation;
 };
 
+/// What the program may have set otherwise than the translation follows it, since a block is not translated.
+enum class UnknownMode : std::uint8_t {
+  ZeroPoint,      ///< Which one is selected, or where it lies.
+  Shift,          ///< G92, for all zero points.
+  LocalShift,     ///< G52.
+  ExternalShift,  ///< G10 L2 P0 of Fanuc.
+};
+
 /// Why a block cannot be translated, and where that shows.
 struct BlockRefusal {
   UntranslatableReason reason = UntranslatableReason::Unreadable;
@@ -139,6 +147,7 @@ class TranslationRun {
   bool is_further_zero(const CurrentBlock& current, ForeignRole role) const;
   void select_further_zero(CurrentBlock& current, int name);
   void forget_zero(const CurrentBlock& current);
+  bool knows_frame() const;
   void set_position(CurrentBlock& current);
   void set_local_shift(const CurrentBlock& current);
   void set_data(CurrentBlock& current);
@@ -154,6 +163,7 @@ class TranslationRun {
   bool has_motion(const CurrentBlock& current) const;
   void add_motion(CurrentBlock& current);
   bool may_move(CurrentBlock& current, bool feeds);
+  std::optional<BlockRefusal> missing_modes(std::size_t at) const;
   bool has_tool(CurrentBlock& current);
   void refuse_motion(CurrentBlock& current, std::optional<BlockRefusal> refusal);
   void move_in_machine(CurrentBlock& current);
@@ -216,7 +226,7 @@ class TranslationRun {
   std::array<bool, 3> lost_{};     // Axes that a block left as a comment would have moved.
   std::set<ForeignRole> suspended_by_;
   bool tool_is_wrong_ = false;
-  bool frame_is_wrong_ = false;
+  std::set<UnknownMode> unknown_;
   std::set<UntranslatableReason> said_once_;
   std::string turned_by_;  // G68 or G69, until a motion has given both axes of the plane.
   ForeignPlane turned_plane_;

@@ -175,6 +175,20 @@ TEST(Translation, WritesNoMotionFromAPlaceThatMayBeAnother) {
            {kFanuc, "T1 M6\nH2\nG0 Z20.\nG49\nG0 Z30.", "M06 T101001\n"},
            {kFanuc, "T1 M6\nG1 X1. F1.\nG41 D0\nG1 X5. Y2.\nX9.\nG40\nG0 X0. Y0.",
             "M06 T101001\nG01 X1. F1.\nG00 X0. Y0.\n"},
+           // Lengths and radii that the program gives by itself.
+           {kFanuc, "T1 M6\nG44 H1\nG0 X1. Y1. Z5.\nG43 H1\nG0 Z30.", "M06 T101001\nG00 Z30.\n"},
+           {kFanuc, "T1 M6\nG44 Z5. H1\nG49\nG1 X5. F1.\nG0 Z3.", "M06 T101001\nG00 Z3.\n"},
+           {kFanuc, "T1 M6\nG43.1 H1\nG0 X1. Y1. Z5.\nG43 H1\nG0 Z30.", "M06 T101001\nG00 Z30.\n"},
+           {kLinuxCnc, "G41.1 D10\nG1 X5 F9\nX9 Y9\nG40 X0\nG0 X2 Y0 Z0", "G00 X2 Y0 Z0\n"},
+           {kLinuxCnc, "G42.1 D10 G1 X5 F9\nG42\nG0 X2 Y0 Z0\nG40", "G42 G00 X2 Y0 Z0\nG40\n"},
+           // Shifts of all zero points, which no other zero point ends.
+           {kFanuc, "G92.1 X0. Y0. Z0.\nG0 X1. Y1. Z1.\nG55 G0 X2. Y2. Z2.", ""},
+           {kFanuc, "G10 L2 P0 X1.\nG0 X1. Y1. Z1.\nG55 G0 X2. Y2. Z2.", ""},
+           {kFanuc, "G92 X#1\nG55 G0 X2. Y2. Z2.", ""},
+           {kFanuc, "G52 X#1\nG55 G0 X2. Y2. Z2.\nG52 X0. Y0. Z0.\nG54 G0 X3. Y3. Z3.", "G00 X3. Y3. Z3.\n"},
+           {kLinuxCnc, "G92 X#1\nG52 X1\nG0 X2 Y2 Z2\nG92.1\nG0 X3 Y3 Z3", "G00 X3 Y3 Z3\n"},
+           {kLinuxCnc, "G92 X#1\nG28\nG92 X1 Y1 Z1\nG0 X3 Y3 Z3", "G00 X0 Y0 Z0\nG92 X-1 Y-1 Z-1\nG00 X3 Y3 Z3\n"},
+           {kFanuc, "G56\nG92 X1. Y1. Z1.\nG54\nG0 X2. Y2. Z2.", ""},
            // A reference point that the program has put elsewhere.
            {kLinuxCnc, "G28.1\nG28\nG0 X1 Y1 Z1", "G00 X1 Y1 Z1\n"},
            // G52 is G92 there.
