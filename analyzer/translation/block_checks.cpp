@@ -34,6 +34,7 @@ std::optional<BlockRefusal> TranslationRun::find_refusal(CurrentBlock& current) 
   }
   if (refusal) return refusal;
   if ((refusal = check_letters(current))) return refusal;
+  if ((refusal = check_known_lengths(current))) return refusal;
   return count_thousandths(current);
 }
 
@@ -131,6 +132,18 @@ std::optional<BlockRefusal> TranslationRun::check_letters(CurrentBlock& current)
     return refusal_at(current.block, Untranslatable::UnknownWord, word);
   }
   return std::nullopt;
+}
+
+/// A frame needs the units, and G90 or G91.
+std::optional<BlockRefusal> TranslationRun::check_known_lengths(const CurrentBlock& current) const {
+  const bool gives_frame =
+      current.has(SetPosition) || current.has(LocalShift) || current.has(Data) || current.has(Rotation);
+  if (!gives_frame || !current.has_any("XYZ")) return std::nullopt;
+  std::set<UnknownMode> needed;
+  if (!current.has(Inches) && !current.has(Millimeters)) needed.insert(UnknownMode::Units);
+  if (!current.has(Absolute) && !current.has(Incremental)) needed.insert(UnknownMode::Distance);
+  if (!lacks(needed)) return std::nullopt;
+  return missing_modes(needed, current.words.front().at);
 }
 
 /// Lengths of a Fanuc without a decimal point.

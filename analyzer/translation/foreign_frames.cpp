@@ -140,7 +140,9 @@ void TranslationRun::set_local_shift(const CurrentBlock& current) {
 }
 
 /// Whether the coordinates of the program are at known places of the machine.
-bool TranslationRun::knows_frame() const { return unknown_.empty(); }
+bool TranslationRun::knows_frame() const {
+  return !lacks({UnknownMode::ZeroPoint, UnknownMode::Shift, UnknownMode::LocalShift, UnknownMode::ExternalShift});
+}
 
 /// G92 of the others: the tool is at these coordinates.
 void TranslationRun::set_position(CurrentBlock& current) {
@@ -156,7 +158,8 @@ void TranslationRun::set_position(CurrentBlock& current) {
     if (const ForeignWord* const word = current.find(kFrameAxes[axis]); word != nullptr && !place_.known[axis])
       return give_up({Untranslatable::PlaceUnknown, word->at, {"G92", std::string(1, word->letter)}});
   const bool gives_all = current.find('X') != nullptr && current.find('Y') != nullptr && current.find('Z') != nullptr;
-  if (gives_all && unknown_ == std::set{UnknownMode::Shift}) unknown_.clear();
+  const bool lacks_others = lacks({UnknownMode::ZeroPoint, UnknownMode::LocalShift, UnknownMode::ExternalShift});
+  if (gives_all && !lacks_others) unknown_.erase(UnknownMode::Shift);
   if (!knows_frame()) {  // What this adds to is not known.
     unknown_.insert(UnknownMode::Shift);
     kept_shift_.reset();
@@ -231,7 +234,8 @@ void TranslationRun::set_rotation(CurrentBlock& current) {
   };
   const std::optional<double> u = center(plane.u);
   const std::optional<double> v = center(plane.v);
-  const bool is_sayable = r != nullptr && !now_.incremental && !frames_.rotation && u && v;
+  const bool is_sayable =
+      r != nullptr && !now_.incremental && !frames_.rotation && u && v && !lacks({UnknownMode::Plane});
   if (!is_sayable) {
     report(current, Untranslatable::Rotation, current.g_of(Rotation));
     suspended_by_.insert(Rotation);
@@ -294,7 +298,7 @@ void TranslationRun::go_to_reference(CurrentBlock& current, int name) {
   const bool names_axes = current.has_any("XYZ");
   const KnownPlace via = target(current);
   const bool goes_by_way = names_axes && [&] {
-    if (!now_.incremental && !knows_frame()) return true;
+    if (lacks({UnknownMode::Units, UnknownMode::Distance}) || (!now_.incremental && !knows_frame())) return true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (current.find(kFrameAxes[axis]) == nullptr) continue;
       const auto i = static_cast<Eigen::Index>(axis);

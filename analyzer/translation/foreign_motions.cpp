@@ -56,8 +56,15 @@ bool TranslationRun::may_move(CurrentBlock& current, bool feeds) {
                             : std::nullopt);
   }
   const auto stops_motions = [&](ForeignRole role) { return role != SurfaceSpeed && (role != PerTurn || feeds); };
-  if (std::any_of(suspended_by_.begin(), suspended_by_.end(), stops_motions)) return refused({});
-  if (!knows_frame()) return refused(missing_modes(at));
+  const bool is_suspended = std::any_of(suspended_by_.begin(), suspended_by_.end(), stops_motions);
+  if (is_suspended || unknown_.contains(UnknownMode::ExternalShift)) return refused({});
+  std::set needed{UnknownMode::Units, UnknownMode::Distance, UnknownMode::ZeroPoint, UnknownMode::Shift,
+                  UnknownMode::LocalShift};
+  if (feeds) needed.insert(UnknownMode::FeedMode);
+  if (compensation_ != 40 || (feeds && motion_ >= 2)) needed.insert(UnknownMode::Plane);
+  if (current.has_any("IJK")) needed.insert(UnknownMode::Centers);
+  if (holds_cycle()) needed.insert(UnknownMode::Retract);
+  if (lacks(needed)) return refused(missing_modes(needed, at));
   const ForeignWord* const z = current.find('Z');
   if (length_off_ && z != nullptr) return refused(BlockRefusal{Untranslatable::LengthOff, z->at, {}});
   if (!turned_by_.empty()) {
@@ -71,15 +78,20 @@ bool TranslationRun::may_move(CurrentBlock& current, bool feeds) {
   return true;
 }
 
-/// What the program must give anew before a motion; nothing where it cannot.
-std::optional<BlockRefusal> TranslationRun::missing_modes(std::size_t at) const {
+bool TranslationRun::lacks(const std::set<UnknownMode>& needed) const {
+  return std::any_of(needed.begin(), needed.end(), [&](UnknownMode mode) { return unknown_.contains(mode); });
+}
+
+/// What of the `needed` the program must give anew.
+BlockRefusal TranslationRun::missing_modes(const std::set<UnknownMode>& needed, std::size_t at) const {
   static constexpr std::pair<UnknownMode, std::string_view> kGs[] = {
-      {UnknownMode::ZeroPoint, "G54"}, {UnknownMode::Shift, "G92"}, {UnknownMode::LocalShift, "G52"}};
-  if (unknown_.contains(UnknownMode::ExternalShift)) return std::nullopt;
+      {UnknownMode::Plane, "G17/G18/G19"}, {UnknownMode::Units, "G20/G21"},       {UnknownMode::Distance, "G90/G91"},
+      {UnknownMode::FeedMode, "G93/G94"},  {UnknownMode::Centers, "G90.1/G91.1"}, {UnknownMode::Retract, "G98/G99"},
+      {UnknownMode::ZeroPoint, "G54"},     {UnknownMode::Shift, "G92"},           {UnknownMode::LocalShift, "G52"}};
   std::string names;
   for (const auto& [mode, name] : kGs)
-    if (unknown_.contains(mode)) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
-  return BlockRefusal{Untranslatable::ModeUnknown, at, {names}};
+    if (needed.contains(mode) && unknown_.contains(mode)) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  return {Untranslatable::ModeUnknown, at, {names}};
 }
 
 /// Whether a tool is mounted that the program means; the first one may come from the map.
@@ -98,6 +110,9 @@ void TranslationRun::move_in_machine(CurrentBlock& current) {
     return refuse_motion(current,
                          BlockRefusal{Untranslatable::MachineCoordinates, current.g_of(MachineCoordinates).at, {}});
   if (!has_tool(current)) return;
+  std::set needed{UnknownMode::Units, UnknownMode::Distance};
+  if (motion_ == 1) needed.insert(UnknownMode::FeedMode);
+  if (lacks(needed)) return refuse_motion(current, missing_modes(needed, current.words.front().at));
   const bool is_lost = std::any_of(lost_.begin(), lost_.end(), [](bool lost) { return lost; });
   if (is_lost && motion_ == 1)
     return refuse_motion(current, BlockRefusal{Untranslatable::LostPlace, current.words.front().at, {}});
@@ -269,6 +284,7 @@ void TranslationRun::apply_feed(CurrentBlock& current) {
   const ForeignWord* const f = current.find('F');
   if (f == nullptr || now_.inverse_time || suspended_by_.contains(PerTurn)) return;
   if (!(f->value > 0)) return leave_out(current, Untranslatable::FeedNotPositive, *f);
+  if (lacks({UnknownMode::Units, UnknownMode::FeedMode})) return feed_.reset();
   feed_ = length_of(*f);
   feed_digits_ = f->digits;
   feed_in_inches_ = now_.inches;

@@ -18,6 +18,32 @@ static bool has_function(const std::vector<int>& functions, int number) {
   return std::find(functions.begin(), functions.end(), number) != functions.end();
 }
 
+/// The mode that a G sets for the lines below.
+static std::optional<UnknownMode> mode_of(ForeignRole role) {
+  switch (role) {
+    case Plane:
+      return UnknownMode::Plane;
+    case Inches:
+    case Millimeters:
+      return UnknownMode::Units;
+    case Absolute:
+    case Incremental:
+      return UnknownMode::Distance;
+    case InverseTime:
+    case PerMinute:
+    case PerTurn:
+      return UnknownMode::FeedMode;
+    case CentersAbsolute:
+    case CentersRelative:
+      return UnknownMode::Centers;
+    case RetractInitial:
+    case RetractR:
+      return UnknownMode::Retract;
+    default:
+      return std::nullopt;
+  }
+}
+
 void TranslationRun::apply_modals(CurrentBlock& current) {
   if (current.has(CycleEnd)) motion_ = -1;
   for (const auto& [tenths, role] : current.gs) {
@@ -35,9 +61,20 @@ void TranslationRun::apply_modals(CurrentBlock& current) {
     if (role == RetractInitial || role == RetractR) retracts_to_r_ = role == RetractR;
     if (role == ExactStop || role == Continuous) exact_stop_ = role == ExactStop;
     if (role == ExactStopHere) current.exact_stop = true;
+    if (const auto mode = mode_of(role)) unknown_.erase(*mode);
   }
   if (!holds_cycle()) cycle_ = {};
   apply_suspensions(current);
+}
+
+/// M72: whichever modes an M70 has saved are in force again.
+void TranslationRun::forget_modes() {
+  unknown_.insert({UnknownMode::Plane, UnknownMode::Units, UnknownMode::Distance, UnknownMode::FeedMode,
+                   UnknownMode::Centers, UnknownMode::Retract, UnknownMode::ZeroPoint});
+  suspended_by_.insert({Compensation, LengthGiven});
+  motion_ = -1;
+  cycle_ = {};
+  feed_.reset();
 }
 
 /// Modes that this dialect lacks: while one is in force, motions stay as comments.
@@ -172,6 +209,11 @@ void TranslationRun::add_functions(CurrentBlock& current) {
     const int m = current.ms[place++];
     const bool is_own = (m >= 2 && m <= 6) || m == 30 || m == 98 || m == 99;
     if (is_own) continue;
+    if (m >= 70 && m <= 73 && setup_.control == SourceControl::LinuxCnc) {
+      leave_out(current, Untranslatable::SavedModes, word);
+      if (m == 72) forget_modes();
+      continue;
+    }
     const auto found = setup_.map.functions.find(m);
     const bool is_named = found != setup_.map.functions.end() || setup_.named_functions.contains(m);
     if (!is_named) {

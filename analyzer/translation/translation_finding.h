@@ -23,6 +23,7 @@ enum class UntranslatableReason : std::uint8_t {
   UnknownG,
   UnknownWord,
   UnnamedFunction,
+  SavedModes,
   RotaryAxis,
   ZeroPointMissing,
   ToolUnmapped,

@@ -308,7 +308,9 @@ void TranslationRun::refuse(CurrentBlock& current, const std::optional<BlockRefu
   if (current.has(Unknown) || current.has(CycleUnknown)) motion_ = -1;  // It may be in force on the lines below.
   apply_feed(current);
   apply_refused_frames(current);
-  const bool changes_tool = std::find(current.ms.begin(), current.ms.end(), 6) != current.ms.end();
+  const auto has_m = [&](int m) { return std::find(current.ms.begin(), current.ms.end(), m) != current.ms.end(); };
+  if (has_m(72) && setup_.control == SourceControl::LinuxCnc) forget_modes();
+  const bool changes_tool = has_m(6);
   if (changes_tool) {
     tool_is_wrong_ = true;
     tool_ = -1;

@@ -40,6 +40,12 @@ struct WrittenFrame {
 
 /// What the program may have set otherwise than the translation follows it, since a block is not translated.
 enum class UnknownMode : std::uint8_t {
+  Plane,
+  Units,
+  Distance,
+  FeedMode,
+  Centers,        ///< Absolute, or from the start of the arc.
+  Retract,        ///< G98 or G99.
   ZeroPoint,      ///< Which one is selected, or where it lies.
   Shift,          ///< G92, for all zero points.
   LocalShift,     ///< G52.
@@ -119,11 +125,13 @@ class TranslationRun {
   std::optional<BlockRefusal> classify_words(CurrentBlock& current) const;
   std::optional<BlockRefusal> check_letters(CurrentBlock& current);
   std::optional<BlockRefusal> count_thousandths(CurrentBlock& current);
+  std::optional<BlockRefusal> check_known_lengths(const CurrentBlock& current) const;
   std::string letters_of(const CurrentBlock& current) const;
   bool takes_place_as_motion(const CurrentBlock& current) const;
 
   // Settings and functions: foreign_settings.cpp.
   void apply_modals(CurrentBlock& current);
+  void forget_modes();
   void apply_feed(CurrentBlock& current);
   void apply_suspensions(CurrentBlock& current);
   void apply_offsets(CurrentBlock& current);
@@ -163,7 +171,8 @@ class TranslationRun {
   bool has_motion(const CurrentBlock& current) const;
   void add_motion(CurrentBlock& current);
   bool may_move(CurrentBlock& current, bool feeds);
-  std::optional<BlockRefusal> missing_modes(std::size_t at) const;
+  bool lacks(const std::set<UnknownMode>& needed) const;
+  BlockRefusal missing_modes(const std::set<UnknownMode>& needed, std::size_t at) const;
   bool has_tool(CurrentBlock& current);
   void refuse_motion(CurrentBlock& current, std::optional<BlockRefusal> refusal);
   void move_in_machine(CurrentBlock& current);

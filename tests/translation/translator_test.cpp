@@ -201,6 +201,22 @@ TEST(Translation, WritesNoMotionFromAPlaceThatMayBeAnother) {
     EXPECT_EQ(code_of(original, control), expected) << original;
 }
 
+/// What M72 of LinuxCNC brings back no map can say; on a Fanuc it is a function of the shop.
+TEST(Translation, MapsNoSavedModes) {
+  TranslationSetup setup = setup_for(SourceControl::LinuxCnc);
+  setup.map.functions = {{70, 0}, {72, 172}};
+  setup.named_functions = {72};
+  const std::string text = "G0 X0 Y0 Z9.\nM70\nM72\nG0 X5.\nM2\n";
+  EXPECT_EQ(
+      translate(text, setup).program,
+      "M06 T101001\nG00 X0 Y0 Z9.\n; NOT TRANSLATED: M70\n; NOT TRANSLATED: M72\n; NOT TRANSLATED: G0 X5.\nM02\n");
+  setup.control = SourceControl::Fanuc;
+  EXPECT_EQ(translate(text, setup).program, "M06 T101001\nG00 X0 Y0 Z9.\nM172\nG00 X5.\nM02\n");
+  EXPECT_EQ(code_of("M72\nG92 X5 Y5 Z5\nG21 G90 G0 X1 Y1 Z1\nG54 G40 G49 G0 X1", SourceControl::LinuxCnc), "");
+  EXPECT_EQ(code_of("M72 X#1\nG0 X1", SourceControl::LinuxCnc), "");
+  EXPECT_EQ(code_of("M72\nG53 G0 Z7", SourceControl::LinuxCnc), "");
+}
+
 /// Shops that keep the radii at D31 and up, and lengths at H101 and up, say so; all other numbers are still those of
 /// another tool.
 TEST(Translation, TakesOffsetsWhereTheMapSaysTheyAre) {
