@@ -55,24 +55,28 @@ void TranslationRun::add_frames(CurrentBlock& current) {
 
 /// A block that is left as a comment has changed the frame: what is not known of it stops the motions below.
 void TranslationRun::apply_refused_frames(CurrentBlock& current) {
-  static constexpr ForeignRole kShifts[] = {SetPosition, ClearShift, SuspendShift, RestoreShift, PresetShift};
-  const bool is_linuxcnc = setup_.control == SourceControl::LinuxCnc;
   for (const auto& [tenths, role] : current.gs) {
     if (role == ZeroPoint || role == FurtherZero) select_zero(current, tenths, role);
-    if (role == Data) {
-      unknown_.insert(UnknownMode::ZeroPoint);
-      forget_zero(current);
-    }
-    if (role == LocalShift) unknown_.insert(is_linuxcnc ? UnknownMode::Shift : UnknownMode::LocalShift);
-    if (role == PresetShift) unknown_.insert(UnknownMode::LocalShift);
-    if (tenths == 281 || tenths == 301) lost_references_.insert(tenths - 1);
     if (role == Rotation) suspended_by_.insert(Rotation);
     if (role == RotationOff) end_rotation();
     if (role == Compensation || role == CompensationOff) compensation_ = tenths / 10;
+    forget_frame(current, tenths, role);
   }
-  for (const ForeignRole shift : kShifts)
-    if (current.has(shift)) unknown_.insert(UnknownMode::Shift);
-  if (current.has(SetPosition) || current.has(LocalShift)) kept_shift_.reset();
+}
+
+/// What a G of a block that is left as a comment gives anew.
+void TranslationRun::forget_frame(const CurrentBlock& current, int tenths, ForeignRole role) {
+  const bool is_linuxcnc = setup_.control == SourceControl::LinuxCnc;
+  if (tenths == 281 || tenths == 301) lost_references_.insert(tenths - 1);
+  if (role == Data) {
+    unknown_.insert(UnknownMode::ZeroPoint);
+    forget_zero(current);
+  }
+  if (role == PresetShift || (role == LocalShift && !is_linuxcnc)) unknown_.insert(UnknownMode::LocalShift);
+  const bool shifts = role == SetPosition || role == ClearShift || role == SuspendShift || role == RestoreShift ||
+                      role == PresetShift || (role == LocalShift && is_linuxcnc);
+  if (shifts) unknown_.insert(UnknownMode::Shift);
+  if (role == SetPosition || role == LocalShift || role == ClearShift) kept_shift_.reset();
 }
 
 void TranslationRun::end_rotation() {

@@ -283,8 +283,8 @@ void TranslationRun::write_turns(CurrentBlock& current, const Vec3& center, cons
 void TranslationRun::apply_feed(CurrentBlock& current) {
   const ForeignWord* const f = current.find('F');
   if (f == nullptr || now_.inverse_time || suspended_by_.contains(PerTurn)) return;
+  if (f->is_formula || lacks({UnknownMode::Units, UnknownMode::FeedMode})) return feed_.reset();
   if (!(f->value > 0)) return leave_out(current, Untranslatable::FeedNotPositive, *f);
-  if (lacks({UnknownMode::Units, UnknownMode::FeedMode})) return feed_.reset();
   feed_ = length_of(*f);
   feed_digits_ = f->digits;
   feed_in_inches_ = now_.inches;

@@ -19,7 +19,7 @@ static bool has_function(const std::vector<int>& functions, int number) {
 }
 
 /// The mode that a G sets for the lines below.
-static std::optional<UnknownMode> mode_of(ForeignRole role) {
+std::optional<UnknownMode> TranslationRun::mode_of(ForeignRole role) {
   switch (role) {
     case Plane:
       return UnknownMode::Plane;
@@ -77,30 +77,37 @@ void TranslationRun::forget_modes() {
   feed_.reset();
 }
 
-/// Modes that this dialect lacks: while one is in force, motions stay as comments.
+/// A mode that this dialect lacks: while it is in force, motions stay as comments.
+struct SuspensionRow {
+  ForeignRole on, off;
+  Untranslatable reason;
+  std::string_view parameters = {};  ///< Letters that belong to the G.
+};
+
+static constexpr SuspensionRow kSuspensions[] = {
+    {Polar, PolarOff, Untranslatable::PolarCoordinates},
+    {Scale, ScaleOff, Untranslatable::ScaledOrMirrored, "XYZIJKRPQ"},
+    {Mirror, MirrorOff, Untranslatable::ScaledOrMirrored, "XYZIJKRPQ"},
+    {Tilt, RotationOff, Untranslatable::TiltedPlane, "XYZIJKRPQ"},
+    {CurvedPlane, CurvedPlaneOff, Untranslatable::UnknownG, "ABC"},
+    {Diameter, Radius, Untranslatable::DiameterMode},
+    {PerTurn, PerMinute, Untranslatable::FeedPerTurn},
+    {SurfaceSpeed, TurnsPerMinute, Untranslatable::SurfaceSpeed, "D"},
+    {LengthGiven, LengthOff, Untranslatable::LengthGiven, "HXYZ"},
+    {CompensationGiven, CompensationOff, Untranslatable::CompensationGiven, "DL"},
+};
+
+bool TranslationRun::suspends_motions(ForeignRole role) {
+  return std::any_of(std::begin(kSuspensions), std::end(kSuspensions),
+                     [&](const SuspensionRow& row) { return row.on == role; });
+}
+
 void TranslationRun::apply_suspensions(CurrentBlock& current) {
-  struct SuspensionRow {
-    ForeignRole on, off;
-    Untranslatable reason;
-    std::string_view parameters = {};  ///< Letters that belong to the G.
-  };
-  static constexpr SuspensionRow kRows[] = {
-      {Polar, PolarOff, Untranslatable::PolarCoordinates},
-      {Scale, ScaleOff, Untranslatable::ScaledOrMirrored, "XYZIJKRPQ"},
-      {Mirror, MirrorOff, Untranslatable::ScaledOrMirrored, "XYZIJKRPQ"},
-      {Tilt, RotationOff, Untranslatable::TiltedPlane, "XYZIJKRPQ"},
-      {CurvedPlane, CurvedPlaneOff, Untranslatable::UnknownG, "ABC"},
-      {Diameter, Radius, Untranslatable::DiameterMode},
-      {PerTurn, PerMinute, Untranslatable::FeedPerTurn},
-      {SurfaceSpeed, TurnsPerMinute, Untranslatable::SurfaceSpeed, "D"},
-      {LengthGiven, LengthOff, Untranslatable::LengthGiven, "HXYZ"},
-      {CompensationGiven, CompensationOff, Untranslatable::CompensationGiven, "DL"},
-  };
   std::size_t place = 0;
   for (const ForeignWord& word : current.words) {
     if (word.letter != 'G') continue;
     const ForeignRole role = current.gs[place++].second;
-    for (const SuspensionRow& row : kRows) {
+    for (const SuspensionRow& row : kSuspensions) {
       const bool replaces = (row.on == LengthGiven && role == Length) || (row.on == PerTurn && role == InverseTime) ||
                             (row.on == CompensationGiven && role == Compensation);
       if (role == row.off || replaces) suspended_by_.erase(row.on);
@@ -114,18 +121,20 @@ void TranslationRun::apply_suspensions(CurrentBlock& current) {
   }
 }
 
+/// Whether an H or D names the data of another tool than the one mounted, or may do so.
+bool TranslationRun::is_of_other_tool(const ForeignWord* word, int offset) const {
+  return word != nullptr && tool_ >= 0 && (word->is_formula || word->value != static_cast<double>(tool_) + offset);
+}
+
 /// H, D and the Gs that take them. The tool's length and radius come with M06 here.
 void TranslationRun::apply_offsets(CurrentBlock& current) {
   const ForeignWord* const h = current.find('H');
   const ForeignWord* const d = current.find('D');
   const bool ends_length = current.has(LengthOff) || (h != nullptr && h->value == 0);
   const bool takes_length = !ends_length && !current.has(LengthGiven) && (current.has(Length) || h != nullptr);
-  const auto is_of_other = [&](const ForeignWord* word, int offset) {
-    return word != nullptr && tool_ >= 0 && word->value != static_cast<double>(tool_) + offset;
-  };
   const std::vector<std::string> mounted{fmt::format("T{}", tool_)};
   if (takes_length) {
-    if (is_of_other(h, setup_.map.length_offset)) {
+    if (is_of_other_tool(h, setup_.map.length_offset)) {
       leave_out(current, Untranslatable::ToolOffsetOfOther, *h, mounted);
       suspended_by_.insert(LengthGiven);
     } else if (h != nullptr) {
@@ -139,7 +148,7 @@ void TranslationRun::apply_offsets(CurrentBlock& current) {
     length_active_ = false;
   }
   if (current.has(Compensation) || current.has(CompensationOff)) suspended_by_.erase(Compensation);
-  if (current.has(Compensation) && is_of_other(d, setup_.map.radius_offset)) {
+  if (current.has(Compensation) && is_of_other_tool(d, setup_.map.radius_offset)) {
     leave_out(current, Untranslatable::ToolOffsetOfOther, *d, mounted);
     suspended_by_.insert(Compensation);
   }
@@ -148,13 +157,24 @@ void TranslationRun::apply_offsets(CurrentBlock& current) {
   if (current.has(CompensationGiven)) compensation_ = 40;
 }
 
+/// What the H and D of a block that is left as a comment have set.
+void TranslationRun::apply_refused_offsets(const CurrentBlock& current) {
+  const ForeignWord* const d = current.find('D');
+  if (is_of_other_tool(current.find('H'), setup_.map.length_offset)) suspended_by_.insert(LengthGiven);
+  if (current.has(Compensation) && is_of_other_tool(d, setup_.map.radius_offset)) suspended_by_.insert(Compensation);
+  if (current.has(LengthOff)) length_off_ = length_off_ || length_active_;
+}
+
 void TranslationRun::add_tool(CurrentBlock& current) {
   const ForeignWord* const t = current.find('T');
   if (t != nullptr) prepared_tool_ = static_cast<int>(t->value);
   if (!has_function(current.ms, 6)) return;
   const ForeignWord& m06 = *std::find_if(current.words.begin(), current.words.end(),
                                          [](const ForeignWord& word) { return word.letter == 'M' && word.value == 6; });
-  if (prepared_tool_ < 0) return leave_out(current, Untranslatable::ToolNumberMissing, m06);
+  if (prepared_tool_ < 0) {
+    tool_is_wrong_ = true;
+    return leave_out(current, Untranslatable::ToolNumberMissing, m06);
+  }
   const auto found = setup_.map.tools.find(prepared_tool_);
   const bool is_mapped = found != setup_.map.tools.end();
   tool_is_wrong_ = !is_mapped && prepared_tool_ != 0;

@@ -298,16 +298,25 @@ void TranslationRun::keep_as_comment(const CurrentBlock& current) {
   remark_untranslated(without_blanks(current.block.text));
 }
 
-/// Leaves a block as a comment. What it sets holds for the blocks below all the same.
+/// Leaves a block as a comment. What it sets holds for the blocks below all the same, unless the operator may skip it.
 void TranslationRun::refuse(CurrentBlock& current, const std::optional<BlockRefusal>& refusal) {
   if (refusal) report(current, *refusal);
   keep_as_comment(current);
   const bool is_flow = current.block.oddity == BlockOddity::Statement;
   follow_flow(current.block);
-  apply_modals(current);
-  if (current.has(Unknown) || current.has(CycleUnknown)) motion_ = -1;  // It may be in force on the lines below.
-  apply_feed(current);
-  apply_refused_frames(current);
+  if (current.block.skip_at) {
+    forget_what_it_sets(current);
+  } else {
+    apply_modals(current);
+    apply_feed(current);
+    apply_refused_frames(current);
+    if (const ForeignWord* const t = current.find('T'))
+      prepared_tool_ = t->is_formula ? -1 : static_cast<int>(std::clamp(t->value, -1.0, 1e9));
+  }
+  apply_refused_offsets(current);
+  const bool changes_cycle = holds_cycle() && current.has_any("RQ");
+  if (current.has(Unknown) || current.has(CycleUnknown) || changes_cycle)
+    motion_ = -1;  // Not known on the lines below.
   const auto has_m = [&](int m) { return std::find(current.ms.begin(), current.ms.end(), m) != current.ms.end(); };
   if (has_m(72) && setup_.control == SourceControl::LinuxCnc) forget_modes();
   const bool changes_tool = has_m(6);
@@ -320,8 +329,8 @@ void TranslationRun::refuse(CurrentBlock& current, const std::optional<BlockRefu
   const bool defines = current.block.flow == "sub";
   const bool is_setting = current.block.oddity == BlockOddity::Assignment || defines;
   const bool goes_home = current.has(Reference) && !current.has_any("XYZ");
-  lose(current,
-       (is_flow || current.block.oddity == BlockOddity::Unreadable || calls_macro || goes_home) && !is_setting);
+  lose(current, (is_flow || current.block.oddity == BlockOddity::Unreadable || calls_macro || has_m(98) || goes_home) &&
+                    !is_setting);
 }
 
 }  // namespace isocnc::translation

@@ -129,12 +129,20 @@ class TranslationRun {
   std::string letters_of(const CurrentBlock& current) const;
   bool takes_place_as_motion(const CurrentBlock& current) const;
 
+  // Blocks that the operator may skip: skipped_blocks.cpp.
+  bool is_in_force(const CurrentBlock& current, int tenths, ForeignRole role) const;
+  void forget_what_it_sets(const CurrentBlock& current);
+
   // Settings and functions: foreign_settings.cpp.
   void apply_modals(CurrentBlock& current);
+  static std::optional<UnknownMode> mode_of(ForeignRole role);
+  static bool suspends_motions(ForeignRole role);
   void forget_modes();
   void apply_feed(CurrentBlock& current);
   void apply_suspensions(CurrentBlock& current);
+  bool is_of_other_tool(const ForeignWord* word, int offset) const;
   void apply_offsets(CurrentBlock& current);
+  void apply_refused_offsets(const CurrentBlock& current);
   void add_tool(CurrentBlock& current);
   void mount_first_tool();
   void mount_tool(const std::string& code);
@@ -150,6 +158,7 @@ class TranslationRun {
   // Frames: foreign_frames.cpp.
   void add_frames(CurrentBlock& current);
   void apply_refused_frames(CurrentBlock& current);
+  void forget_frame(const CurrentBlock& current, int tenths, ForeignRole role);
   void end_rotation();
   void select_zero(CurrentBlock& current, int name, ForeignRole role);
   bool is_further_zero(const CurrentBlock& current, ForeignRole role) const;

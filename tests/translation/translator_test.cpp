@@ -189,6 +189,13 @@ TEST(Translation, WritesNoMotionFromAPlaceThatMayBeAnother) {
            {kLinuxCnc, "G92 X#1\nG52 X1\nG0 X2 Y2 Z2\nG92.1\nG0 X3 Y3 Z3", "G00 X3 Y3 Z3\n"},
            {kLinuxCnc, "G92 X#1\nG28\nG92 X1 Y1 Z1\nG0 X3 Y3 Z3", "G00 X0 Y0 Z0\nG92 X-1 Y-1 Z-1\nG00 X3 Y3 Z3\n"},
            {kFanuc, "G56\nG92 X1. Y1. Z1.\nG54\nG0 X2. Y2. Z2.", ""},
+           // What a variable gives.
+           {kLinuxCnc, "G1 X1 F9\nF#1\nX5", "G01 X1 F9\n"},
+           {kLinuxCnc, "F9 G98 G81 X1 Z-5 R2\nR#1\nX5\nG80", "Z2\nX1\nG01 Z-5 F9\nG00 Z2\n"},
+           {kFanuc, "F9\nM98 P#1\nG1 X5.", ""},
+           {kLinuxCnc, "T#1\nM6\nG0 X5", ""},
+           {kLinuxCnc, "T1 M6\nG41 D#1\nG0 X5 Y5 Z0\nG40 G0 X6 Y6 Z0", "M06 T101001\nG00 X6 Y6 Z0\n"},
+           {kFanuc, "T1 M6\nG43 H2 Z#1\nG0 Z5.", "M06 T101001\n"},
            // A reference point that the program has put elsewhere.
            {kLinuxCnc, "G28.1\nG28\nG0 X1 Y1 Z1", "G00 X1 Y1 Z1\n"},
            // G52 is G92 there.
