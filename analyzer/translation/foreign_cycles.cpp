@@ -23,7 +23,7 @@ void TranslationRun::drill(CurrentBlock& current) {
   const std::string name = fmt::format("G{}", motion_);
   const std::size_t at = current.words.front().at;
   const auto axis = static_cast<std::size_t>(plane.normal);
-  if (!place_.known[axis])
+  if (!place_.known[axis] && left_by_cycle_ != plane.normal)
     return refuse_motion(current,
                          BlockRefusal{Untranslatable::PlaceUnknown, at, {name, std::string(1, kCycleAxes[axis])}});
   if (!read_cycle(current)) return;
@@ -44,6 +44,21 @@ void TranslationRun::drill(CurrentBlock& current) {
   const double r = *cycle_.r;
   if (holes >= 1 && place_.at[plane.normal] < r - kLevelsDiffer) rapid_to(plane.normal, r);
   for (int hole = 0; hole < static_cast<int>(holes); ++hole) drill_hole(current);
+  if (holes >= 1) settle_height();
+}
+
+/// After a cycle the tool is at a known height, unless neither G98 nor G99 is stated: rs274 then goes back to R, other
+/// machines may be set otherwise. The tool is left at the higher place, which is clear of the part in any case.
+void TranslationRun::settle_height() {
+  const int normal = foreign_plane(now_.plane).normal;
+  const auto axis = static_cast<std::size_t>(normal);
+  const bool may_be_lower = !retract_is_stated_ || (!retracts_to_r_ && left_by_cycle_ == normal);
+  const bool is_known = !may_be_lower || place_.at[normal] < *cycle_.r + kLevelsDiffer;
+  if (is_known) find_again(axis);
+  place_.known[axis] = is_known;
+  if (is_known) return;
+  lost_[axis] = true;
+  left_by_cycle_ = normal;
 }
 
 /// Whether so many moves may be written for one block: a few words must not fill the disk.

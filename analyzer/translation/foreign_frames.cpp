@@ -327,7 +327,7 @@ void TranslationRun::go_to_reference(CurrentBlock& current, int name) {
     words += fmt::format(" {}{}", kFrameAxes[axis], written_number(reference[i] / unit(), 9));
     machine.at[i] = reference[i];
     machine.known[axis] = true;
-    lost_[axis] = false;
+    find_again(axis);
   }
   write_motion_in(current, 0, "G00" + words, false);
   place_ = frames_.from_machine(machine);

@@ -72,8 +72,12 @@ bool TranslationRun::may_move(CurrentBlock& current, bool feeds) {
                             current.find(kMotionAxes[turned_plane_.v]) != nullptr;
     if (!gives_both) return refused(BlockRefusal{Untranslatable::AxesAfterRotation, at, {turned_by_}});
   }
-  const bool is_lost = std::any_of(lost_.begin(), lost_.end(), [](bool lost) { return lost; });
-  if (is_lost && (feeds || now_.incremental)) return refused(BlockRefusal{Untranslatable::LostPlace, at, {}});
+  const auto lost_axes = std::count(lost_.begin(), lost_.end(), true);
+  const bool lacks_height_alone = lost_axes == 1 && left_by_cycle_ >= 0;
+  const bool drills_on = lacks_height_alone && holds_cycle() && foreign_plane(now_.plane).normal == left_by_cycle_;
+  if (lost_axes > 0 && (now_.incremental || (feeds && !drills_on)))
+    return refused(
+        BlockRefusal{lacks_height_alone ? Untranslatable::RetractUnstated : Untranslatable::LostPlace, at, {}});
   turned_by_.clear();
   return true;
 }
@@ -127,7 +131,7 @@ void TranslationRun::move_in_machine(CurrentBlock& current) {
     if (word == nullptr) continue;
     machine.at[static_cast<Eigen::Index>(axis)] = length_of(*word);
     machine.known[axis] = true;
-    lost_[axis] = false;
+    find_again(axis);
   }
   place_ = frames_.from_machine(machine);
 }
@@ -358,13 +362,20 @@ KnownPlace TranslationRun::target(const CurrentBlock& current) const {
 void TranslationRun::arrive(const CurrentBlock& current, const KnownPlace& at) {
   place_ = at;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (current.find(kMotionAxes[axis]) != nullptr) lost_[axis] = false;
+    if (current.find(kMotionAxes[axis]) != nullptr) find_again(axis);
+}
+
+/// The program has given the axis anew.
+void TranslationRun::find_again(std::size_t axis) {
+  lost_[axis] = false;
+  if (left_by_cycle_ == static_cast<int>(axis)) left_by_cycle_ = -1;
 }
 
 /// The block would have moved these axes, or may have moved all.
 void TranslationRun::lose(const CurrentBlock& current, bool everything) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!everything && current.find(kMotionAxes[axis]) == nullptr) continue;
+    find_again(axis);
     lost_[axis] = true;
     place_.known[axis] = false;
   }

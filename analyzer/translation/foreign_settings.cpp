@@ -58,7 +58,7 @@ void TranslationRun::apply_modals(CurrentBlock& current) {
     if (role == Absolute || role == Incremental) now_.incremental = role == Incremental, stated_.distance = true;
     if (role == CentersAbsolute || role == CentersRelative) centers_absolute_ = role == CentersAbsolute;
     if (role == InverseTime || role == PerMinute) now_.inverse_time = role == InverseTime, stated_.feed_mode = true;
-    if (role == RetractInitial || role == RetractR) retracts_to_r_ = role == RetractR;
+    if (role == RetractInitial || role == RetractR) retracts_to_r_ = role == RetractR, retract_is_stated_ = true;
     if (role == ExactStop || role == Continuous) exact_stop_ = role == ExactStop;
     if (role == ExactStopHere) current.exact_stop = true;
     if (const auto mode = mode_of(role)) unknown_.erase(*mode);

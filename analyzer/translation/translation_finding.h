@@ -57,6 +57,7 @@ enum class UntranslatableReason : std::uint8_t {
   CycleUnknown,
   CycleIncomplete,
   CycleDepth,
+  RetractUnstated,
   CycleTooManyMoves,
   DwellMissing,
   SubprogramMissing,

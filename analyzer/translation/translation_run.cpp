@@ -85,7 +85,8 @@ TranslationRun::TranslationRun(std::string_view text, const TranslationSetup& se
     : setup_(setup), lines_(lines_of(text)), writer_(line_end_of(text)), frames_(setup.map.zeros) {
   now_.inches = stated_.units = setup.map.starts_in_inches;
   if (setup.control == SourceControl::Grbl) motion_ = 0;  // Its state at the start.
-  if (setup.control == SourceControl::LinuxCnc) return;   // O is no program's number there.
+  retract_is_stated_ = setup.control != SourceControl::LinuxCnc;
+  if (setup.control == SourceControl::LinuxCnc) return;  // O is no program's number there.
   for (std::size_t line = 0; line < lines_.size(); ++line) {
     const std::string_view start = without_blanks(lines_[line]);
     if (start.empty() || (start.front() != 'O' && start.front() != 'o')) continue;

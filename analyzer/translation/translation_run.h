@@ -198,6 +198,7 @@ class TranslationRun {
   KnownPlace target(const CurrentBlock& current) const;
   void arrive(const CurrentBlock& current, const KnownPlace& at);
   void lose(const CurrentBlock& current, bool everything);
+  void find_again(std::size_t axis);
   std::string axis_words(const CurrentBlock& current) const;
   std::string coordinate(int axis, double mm) const;
   double unit() const { return now_.inches ? 25.4 : 1; }
@@ -208,6 +209,7 @@ class TranslationRun {
   bool read_cycle(CurrentBlock& current);
   bool may_expand(double moves);
   void drill_hole(CurrentBlock& current);
+  void settle_height();
   void write_pecks();
   void write_cycle_move(int g, const std::string& words);
   void rapid_to(int axis, double mm);
@@ -229,6 +231,7 @@ class TranslationRun {
   int motion_ = -1;  // 0 to 3; the G of a cycle; -1: none.
   bool centers_absolute_ = false;
   bool retracts_to_r_ = false;
+  bool retract_is_stated_ = false;  // By a G98 or G99, or by the control, which starts with G98.
   bool exact_stop_ = false;
   int compensation_ = 40;
   int prepared_tool_ = -1;
@@ -242,6 +245,7 @@ class TranslationRun {
   KnownPlace place_;
   std::set<int> lost_references_;  // G28 and G30, in tenths, that the program has put elsewhere.
   std::array<bool, 3> lost_{};     // Axes that a block left as a comment would have moved.
+  int left_by_cycle_ = -1;         // The one of them along which a cycle has gone back to one of two heights.
   std::set<ForeignRole> suspended_by_;
   bool tool_is_wrong_ = false;
   std::set<UnknownMode> unknown_;
