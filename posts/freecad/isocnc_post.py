@@ -25,6 +25,7 @@ CORNER_MAX = {"x": 3000, "y": 1500, "z": 200}
 LINEAR = "XYZ"
 ROTARY = "BC"
 AXES = LINEAR + ROTARY
+NO_TOOL = "000000"
 MM_PER_INCH = 25.4
 ARC_TOLERANCE = 0.01  # mm: how far the control lets the ends of an arc be from its circle (ISO031).
 SAME_PLACE = 1e-6  # mm
@@ -347,6 +348,7 @@ class Translator:
         self.number = 0
         self.held = []  # Rapids before the first tool change, which the control would stop at.
         self.turned = {}  # By A, B and C of the job, with --rotary part.
+        self.numbers = {}  # The tool number that has each T.
         self.turns = False  # Whether B or C turn anywhere.
         self.place = ""
 
@@ -579,6 +581,9 @@ class Translator:
         self.allow(others, "")
         state = self.state
         name = self.t_of(number)
+        other = self.numbers.setdefault(name, number)
+        if other != number and name != NO_TOOL:
+            self.fail(f"tools {other} and {number} are both at T{name}: give each a T of its own with --tool")
         if name == state.tool:
             return
         self.to_three_axes()

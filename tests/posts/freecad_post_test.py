@@ -306,6 +306,15 @@ class Refused(unittest.TestCase):
         with self.assertRaisesRegex(isocnc_post.PostError, "before the first tool change"):
             isocnc_post.post([isocnc_post.Operation("x", [("G1", {"X": 1.0, "F": 1.0})])], isocnc_post.parse_options(USUAL))
 
+    def test_two_tools_at_one_place(self):
+        change = [["M6", {"T": 2}], ["M3", {"S": 5000}], ["G0", {"X": 5, "Y": 5, "Z": 20}]]
+        for more in ("--tool 3=101002", "--tool 3=102003 --tool 2=102003"):
+            with self.subTest(more), self.assertRaisesRegex(isocnc_post.PostError, r"tools 3 and 2 are both at T10\d00\d"):
+                post(change, f"{USUAL} {more}")
+        self.assertIn("M06 T101002", post(change))
+        self.assertEqual(post([["M6", {"T": 3}]]).count("M06"), 1)
+        self.assertEqual(post([["M6", {"T": 8}], ["M6", {"T": 9}]], USUAL + " --tool 8=000000 --tool 9=000000").count("M06"), 2)
+
     def test_a_file_is_written_whole_or_not_at_all(self):
         class Item:
             Label = "bad"
