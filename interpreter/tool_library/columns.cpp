@@ -28,6 +28,8 @@ constexpr Text kNoHeader{"the first line of a table names its columns, such as T
 constexpr Text kTwoColumns{"two columns are called {0}", "due colonne si chiamano {0}"};
 constexpr Text kTwoColumnsOfOneFact{"the columns {0} and {1} say the same",
                                     "le colonne {0} e {1} dicono la stessa cosa"};
+constexpr Text kUnitOfSome{"this heading has no unit, and {0} has one: give each length its unit",
+                           "questa intestazione non ha l'unità, {0} sì: darla a ogni lunghezza"};
 constexpr Text kTooManyCells{
     "a row with more cells than there are columns; decimals with a comma need another separator",
     "una riga con più celle che colonne; i decimali con la virgola vogliono un altro separatore"};
@@ -351,8 +353,30 @@ struct HeadedColumn {
   std::optional<double> millimeters;  ///< Of its unit, if its heading says one.
 };
 
-/// The column of each cell of a row.
-std::vector<HeadedColumn> read_header(const CsvRow& header, LibraryFile& file, std::vector<std::string>& ignored) {
+bool is_length(std::string_view column) {
+  if (column == kDiameter || column == kMeasuredLength.en || column == kMeasuredRadius.en) return true;
+  const Key* const key = tool_key(column);
+  return key != nullptr && key->unit.en == "mm";
+}
+
+/// A heading without a unit beside one whose unit is another than that of the table was most likely meant in that one.
+void check_units(const CsvRow& header, const std::vector<HeadedColumn>& columns, double millimeters,
+                 LibraryFile& file) {
+  const auto has_other_unit = [&](const HeadedColumn& column) {
+    return column.millimeters.value_or(millimeters) != millimeters;
+  };
+  const auto other = std::find_if(columns.begin(), columns.end(), has_other_unit);
+  const bool has_units =
+      std::any_of(columns.begin(), columns.end(), [](const HeadedColumn& column) { return column.name == kUnit; });
+  if (other == columns.end() || has_units) return;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (!columns[i].millimeters && is_length(columns[i].name))
+      file.fail(header[i].at, std::string(columns[i].name), kUnitOfSome, {std::string(other->name)});
+}
+
+/// The column of each cell of a row, in a table whose unit has so many mm.
+std::vector<HeadedColumn> read_header(const CsvRow& header, double millimeters, LibraryFile& file,
+                                      std::vector<std::string>& ignored) {
   std::vector<HeadedColumn> columns;
   const auto has = [&](std::string_view name) {
     return std::any_of(columns.begin(), columns.end(), [&](const HeadedColumn& column) { return column.name == name; });
@@ -375,6 +399,7 @@ std::vector<HeadedColumn> read_header(const CsvRow& header, LibraryFile& file, s
     }
     columns.push_back(column);
   }
+  check_units(header, columns, millimeters, file);
   if (std::all_of(columns.begin(), columns.end(), [](const HeadedColumn& column) { return column.name.empty(); }))
     file.fail(header.front().at, {}, kNoHeader);
   constexpr std::pair<std::string_view, std::string_view> kSameFacts[] = {
@@ -438,7 +463,7 @@ std::vector<LibraryTool> read_columns(LibraryFile& file, double millimeters, std
     if (file.mistakes().empty()) file.fail(0, {}, kNoHeader);
     return {};
   }
-  const std::vector<HeadedColumn> columns = read_header(*header, file, ignored);
+  const std::vector<HeadedColumn> columns = read_header(*header, millimeters, file, ignored);
   if (!file.mistakes().empty()) return {};
   std::vector<LibraryTool> tools;
   const auto read_row = [&](const CsvRow& row) -> std::optional<LibraryTool> {

@@ -254,6 +254,8 @@ TEST(ToolImport, RefusesBrokenLibraries) {
       {"a.csv", "T;length;radius\nT101001;100;4;25\n",
        "a.csv:2:15: error: a row with more cells than there are columns"},
       {"a.csv", "T;length (ell)\n", "a.csv:1:3: error: length: ell is no unit known here: mm, inch"},
+      {"a.csv", "T,length (inch),diameter\nT101001,4.5,0.5\n",
+       "a.csv:1:17: error: diameter: this heading has no unit, and length has one: give each length its unit"},
       {"a.csv", "T;head;length\n", "a.csv:1:1: error: the columns T and head say the same"},
       {"a.csv", "T;radius;diameter\n", "a.csv:1:1: error: the columns diameter and radius say the same"},
       {"a.tools", "PK", "a.tools: no archive that holds a tools.json, or a damaged one"},
