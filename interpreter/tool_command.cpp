@@ -36,6 +36,10 @@ namespace {
 constexpr std::string_view kOptions[] = {"--import-tools", "--export-tools", "--new-machine"};
 
 constexpr Text kNothingWritten{"nothing is written; --write writes {}", "non è scritto nulla; --write scrive {}"};
+constexpr Text kNoFileToWrite{
+    "--no-config reads no isocnc.json, so that --write has none to change: name one with --config or --machine",
+    "--no-config non legge nessun isocnc.json, e --write non ne ha uno da cambiare: indicarlo con --config o "
+    "--machine"};
 constexpr Text kWritten{"{} is written", "{} è scritto"};
 constexpr Text kNothingTaken{"no tool is taken: --map FILE says where they stand, such as {}",
                              "nessun utensile è preso: --map FILE dice dove stanno, per esempio {}"};
@@ -101,6 +105,7 @@ class TargetFile {
 struct FoundMachine {
   configuration::MachineConfiguration machine;
   std::filesystem::path file;  ///< Empty if there is none.
+  bool is_ignored = false;     ///< By --no-config, so that there is nothing to write to.
   Language language = Language::English;
 };
 
@@ -114,11 +119,15 @@ std::optional<FoundMachine> find_machine(const configuration::ConfigurationSourc
   const std::vector<std::string> mistakes = found.mistakes(language);
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
   if (!mistakes.empty()) return std::nullopt;
-  return FoundMachine{configuration.machine, configuration.file, language};
+  return FoundMachine{configuration.machine, configuration.file, !machine && source.none, language};
 }
 
 ExitStatus import_tools(const ToolCommandOptions& options, const FoundMachine& found) {
   const Language language = found.language;
+  if (found.is_ignored && options.is_written) {
+    refuse_tools(kNoFileToWrite.in(language));
+    return ExitStatus::Failure;
+  }
   const std::vector<std::string> keys = tool_library::tool_key_names();
   std::vector<std::string> kept;
   for (const std::string_view each : text::split_at_commas(options.kept))
@@ -139,7 +148,7 @@ ExitStatus import_tools(const ToolCommandOptions& options, const FoundMachine& f
   }
   // Before it is read: what others change meanwhile stays.
   TargetFile target(found.file.empty() ? std::filesystem::path(configuration::kFileName) : found.file);
-  const std::optional<std::string> text = target.read(language);
+  const std::optional<std::string> text = found.is_ignored ? std::string() : target.read(language);
   if (!text) return ExitStatus::Failure;
   const tool_library::Library library = tool_library::read_library(options.import_file, map.is_in_inches, language);
   for (const std::string& mistake : library.mistakes) std::cerr << mistake << '\n';
@@ -170,7 +179,7 @@ ExitStatus import_tools(const ToolCommandOptions& options, const FoundMachine& f
   }
   // What is mistaken in the library does not keep the others out.
   const ExitStatus done = has_mistaken_entry(import) ? ExitStatus::Findings : ExitStatus::Success;
-  if (import.changes.empty() && import.holders.empty()) return done;
+  if (found.is_ignored || (import.changes.empty() && import.holders.empty())) return done;
   const std::optional<std::string> changed = tool_library::with_import(*text, target.folder(), import);
   if (!changed) {
     refuse_tools(dialect::format(kDefect, language, target.name()));

@@ -13,6 +13,7 @@
 namespace isocnc::commands {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -93,6 +94,7 @@ TEST_F(IsorunTools, ChangesNothingAfterAMistake) {
       {{"--import-tools", "nowhere.tbl"},
        "no tool is taken: --map FILE says where they stand, such as {\"tools\": {\"1\": \"T101001\"}}"},
       {{"--import-tools", "."}, ".: not a file"},
+      {{"--import-tools", "tools.csv", "--no-config"}, "--no-config reads no isocnc.json, so that --write has none"},
       {{"part.iso", "--import-tools", "tools.csv"}, "run no program, such as part.iso"},
       {{"--map", "map.json"}, "FILE is required"},
       {{"--export-tools", "out.txt"}, "--export-tools writes a file whose name ends in .csv"},
@@ -107,6 +109,19 @@ TEST_F(IsorunTools, ChangesNothingAfterAMistake) {
     EXPECT_THAT(result.err, HasSubstr(complaint));
     EXPECT_EQ(content(configuration), kCommentedShop);
   }
+}
+
+/// Against a machine without tools, whatever the file of the folder says.
+TEST_F(IsorunTools, ShowsALibraryWithoutAConfiguration) {
+  const std::string configuration = folder_.write("isocnc.json", kCommentedShop);
+  folder_.write("tools.csv", kToolTable);
+  const CommandResult shown = isorun({"--no-config", "--import-tools", "tools.csv"});
+  EXPECT_EQ(shown.status, 0) << shown.err;
+  EXPECT_THAT(
+      shown.out,
+      EndsWith("2 new, 0 changed, 0 as before, 0 of the machine not in the library, 0 of the library not taken\n"));
+  EXPECT_EQ(isorun({"--no-config", "--machine", "isocnc.json", "--import-tools", "tools.csv", "--write"}).status, 0);
+  EXPECT_NE(content(configuration), kCommentedShop);
 }
 
 TEST_F(IsorunTools, WritesTheOthersWhereAnEntryIsMistaken) {
