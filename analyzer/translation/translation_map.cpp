@@ -165,6 +165,7 @@ class MapReader {
     const std::string key = path_of("zeros", member);
     const int name = zero_name(member.key);
     if (name < 0) return fail(member.at, key, kNoZeroName, {configuration::shortened(member.key)});
+    if (map_.zeros.contains(name)) return fail(member.at, key, map_problems::kTwiceInMap);  // "G54" and "g54".
     if (const auto at = point(member.value, key)) map_.zeros[name] = *at;
   }
 
@@ -172,6 +173,7 @@ class MapReader {
     const std::string key = path_of("references", member);
     const int name = number_after('G', member.key);
     if (name != 28 && name != 30) return fail(member.at, key, kNoReferenceName, {configuration::shortened(member.key)});
+    if (map_.references.contains(name * 10)) return fail(member.at, key, map_problems::kTwiceInMap);
     if (const auto at = point(member.value, key)) map_.references[name * 10] = *at;
   }
 
@@ -180,6 +182,7 @@ class MapReader {
     const int name = number_after('M', member.key);
     if (!is_mappable_function(name))
       return fail(member.at, key, kNoFunctionName, {configuration::shortened(member.key)});
+    if (map_.functions.contains(name)) return fail(member.at, key, map_problems::kTwiceInMap);  // "M8" and "M08".
     if (member.value.kind == JsonValue::Kind::Null) {
       map_.functions[name] = 0;
       return;
