@@ -63,7 +63,7 @@ std::optional<double> JsonTool::length(std::string_view key) const {
   if (says_nothing(value)) return std::nullopt;
   const double length = tidy(value->number * millimeters_);
   if (value->kind == JsonValue::Kind::Number && length > 0 && length <= kLongest) return length;
-  file_.fail(value->at, fmt::format("{}.{}", path_, key), problems::kNeedsLength, {shown(*value)});
+  fail(key, *value, problems::kNeedsLength);
   return std::nullopt;
 }
 
@@ -71,8 +71,13 @@ std::optional<double> JsonTool::angle(std::string_view key) const {
   const JsonValue* const value = member_of(object_, key);
   if (says_nothing(value)) return std::nullopt;
   if (value->kind == JsonValue::Kind::Number && value->number > 0 && value->number < 180) return value->number;
-  file_.fail(value->at, fmt::format("{}.{}", path_, key), problems::kNeedsAngle, {shown(*value)});
+  fail(key, *value, problems::kNeedsAngle);
   return std::nullopt;
+}
+
+void JsonTool::fail(std::string_view key, const JsonValue& value, const dialect::Text& why) const {
+  const bool is_text = value.kind == JsonValue::Kind::String;
+  file_.fail(value.at, fmt::format("{}.{}", path_, key), is_text ? problems::kNeedsNumber : why, {shown(value)});
 }
 
 std::vector<const configuration::Key*> tool_keys() {

@@ -56,6 +56,8 @@ class LibraryFile {
 namespace problems {
 inline constexpr dialect::Text kNeedsLength{"{0} is no length of a tool: above 0 and at most 10000 mm",
                                             "{0} non è una lunghezza di un utensile: sopra 0 e fino a 10000 mm"};
+inline constexpr dialect::Text kNeedsNumber{"{0} is a text: a number alone is needed here, without quotes",
+                                            "{0} è un testo: qui ci vuole solo un numero, senza virgolette"};
 inline constexpr dialect::Text kNeedsAngle{"{0} is no angle of a tool: above 0 and below 180 degrees",
                                            "{0} non è un angolo di un utensile: sopra 0 e sotto 180 gradi"};
 inline constexpr dialect::Text kUnknownUnit{"{0} is no unit known here: {1}", "{0} non è un'unità nota qui: {1}"};
@@ -87,6 +89,8 @@ class JsonTool {
   std::optional<double> angle(std::string_view key) const;
 
  private:
+  void fail(std::string_view key, const configuration::JsonValue& value, const dialect::Text& why) const;
+
   const configuration::JsonValue& object_;
   std::string path_;
   double millimeters_;
