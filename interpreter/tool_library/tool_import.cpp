@@ -35,6 +35,11 @@ namespace {
 
 constexpr Text kSeveralTools{"the map's {0} means {1} tools of the library: {2}; map them by their names",
                              "{0} della mappa indica {1} utensili della libreria: {2}; vanno indicati per nome"};
+constexpr Text kSeveralOfOneName{"the map's {0} means {1} tools of the library; map them by their numbers: {2}",
+                                 "{0} della mappa indica {1} utensili della libreria; vanno indicati per numero: {2}"};
+constexpr Text kSeveralAlike{
+    "the map's {0} means {1} tools of the library: {2}; give them other names or numbers in the library",
+    "{0} della mappa indica {1} utensili della libreria: {2}; dare loro altri nomi o numeri nella libreria"};
 constexpr Text kTwoAtPlace{"two tools of the library stand at {0}: {1} and {2}",
                            "due utensili della libreria stanno a {0}: {1} e {2}"};
 constexpr Text kUnmapped{"the map gives it no place", "la mappa non gli dà un posto"};
@@ -158,6 +163,28 @@ class Importer {
     mistakes_.push_back(dialect::format(why, language_, values...));
   }
 
+  /// Says by what the tools that a key of the map means can be told apart.
+  void report_several(const std::string& key, const std::vector<const LibraryTool*>& tools) {
+    const auto listed = [&](auto&& text_of_tool) {
+      constexpr std::size_t kShown = 4;
+      std::string texts;
+      for (std::size_t i = 0; i < std::min(tools.size(), kShown); ++i)
+        texts += (i == 0 ? "" : ", ") + text_of_tool(*tools[i]);
+      return tools.size() > kShown ? texts + ", ..." : texts;
+    };
+    const auto tells_apart = [&](auto&& text_of_tool) {
+      std::set<std::string> texts;
+      for (const LibraryTool* tool : tools) texts.insert(text_of_tool(*tool));
+      return texts.size() == tools.size() && !texts.contains("");
+    };
+    const auto name = [](const LibraryTool& tool) { return std::string(trimmed(tool.tool.name)); };
+    const auto number = [](const LibraryTool& tool) { return text::printable(tool.number); };
+    const std::string shown = configuration::shortened(key);
+    if (tells_apart(name)) return fail(kSeveralTools, shown, tools.size(), listed(label_of));
+    if (tells_apart(number)) return fail(kSeveralOfOneName, shown, tools.size(), listed(number));
+    fail(kSeveralAlike, shown, tools.size(), listed(label_of));
+  }
+
   /// Finds the place of each tool that has one, and what makes that unclear.
   void find_places() {
     std::map<std::string, std::vector<const LibraryTool*>> by_key;
@@ -181,12 +208,7 @@ class Importer {
           return name != key && map_.places.contains(name);
         });
       if (tools.size() > 1) {
-        constexpr std::size_t kShown = 4;
-        std::string names;
-        for (std::size_t i = 0; i < std::min(tools.size(), kShown); ++i)
-          names += (i == 0 ? "" : ", ") + label_of(*tools[i]);
-        if (tools.size() > kShown) names += ", ...";
-        fail(kSeveralTools, configuration::shortened(key), tools.size(), names);
+        report_several(key, tools);
       } else if (!tools.empty()) {
         places_[tools.front()] = entry.second;
       }

@@ -340,6 +340,13 @@ TEST(ToolImport, RefusesWhatIsNotClear) {
   EXPECT_THAT(shown({}, twins, map_of({{"a", 101001}, {"b", 101002}})), HasSubstr("2 new"));
   // The name of one leaves the number to the other.
   EXPECT_THAT(shown({}, twins, map_of({{"a", 101001}, {"1", 101002}})), HasSubstr("+ T101002 \"b\": radius 3\n"));
+  const Library copies = read("a.csv", "number;name;radius\n1;a;2\n2;a;2\n");
+  EXPECT_EQ(shown({}, copies, map_of({{"a", 101001}})),
+            "the map's a means 2 tools of the library; map them by their numbers: 1, 2");
+  EXPECT_THAT(shown({}, copies, map_of({{"1", 101001}, {"2", 101002}})), HasSubstr("2 new"));
+  const Library alike = read("a.csv", "number;name;radius\n1;a;2\n1;a;2\n");
+  EXPECT_EQ(shown({}, alike, map_of({{"1", 101001}})),
+            "the map's 1 means 2 tools of the library: a, a; give them other names or numbers in the library");
   const Library same = read("a.csv", "T;name\nT101001;a\nT101001;b\n");
   EXPECT_EQ(shown({}, same, {}), "two tools of the library stand at T101001: a and b");
 }
