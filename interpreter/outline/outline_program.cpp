@@ -26,6 +26,9 @@ static constexpr double kAboveWork = 5;
 static constexpr Text kTitle{"; around {}, at Z{}, spindle off: {}", "; intorno a {}, a Z{}, mandrino fermo: {}"};
 static constexpr Text kNoRadius{"; not widened for {}: its radius is not known",
                                 "; non allargato per {}: il suo raggio non si conosce"};
+static constexpr Text kBelowWork{
+    "; lower than the highest feed move, at Z{}: look whether the way around is free",
+    "; piu' in basso del movimento di lavoro piu' alto, a Z{}: controllare che il giro sia libero"};
 static constexpr Text kRectangle{"the rectangle", "il rettangolo"};
 static constexpr Text kHull{"the convex outline", "il contorno convesso"};
 static constexpr Text kPath{"the outline", "il contorno"};
@@ -144,7 +147,8 @@ std::variant<std::string, OutlineRefusal> outline_program(std::string_view text,
   if (job.run.ending != running::Ending::ProgramEnd || job.area.is_empty()) return OutlineRefusal{job.run};
   const Vec3 origin = verification::first_workpiece_origin(text, options.run);
   const geometry::Pose& home = options.run.setup.home;
-  const double least = std::max(job.highest_feed - origin.z() + kAboveWork, options.run.setup.clearance.value_or(-1e9));
+  const double highest_work = job.highest_feed - origin.z();
+  const double least = std::max(highest_work + kAboveWork, options.run.setup.clearance.value_or(-1e9));
   const double height = options.height.value_or(std::ceil(least * 10) / 10);
   const double reach = options.machine.highest_tip(*job.tool, home.b, home.c);
   const double top = std::max(std::floor((std::min(job.highest, reach) - origin.z()) * 1000) / 1000, height);
@@ -155,6 +159,7 @@ std::variant<std::string, OutlineRefusal> outline_program(std::string_view text,
                       name_of(options.shape).in(options.language)));
   for (const execution::ToolCode& tool : job.without_radius)
     add(dialect::format(kNoRadius, options.language, running::tool_name(tool)));
+  if (height < highest_work) add(dialect::format(kBelowWork, options.language, shown(highest_work)));
   add("G71 G90");
   if (origin != Vec3::Zero()) add("G92 " + at(origin.head<2>()) + " Z" + shown(origin.z()));
   add("M06 " + running::tool_name(*job.tool));

@@ -51,6 +51,16 @@ TEST(OutlineProgram, GoesWhereItIsTold) {
   EXPECT_THAT(outline_of(kProgram, other), HasSubstr("G00 Z350\nX-8 Y-8\nG01 X48"));
 }
 
+TEST(OutlineProgram, SaysThatItGoesAroundBelowTheWork) {
+  OutlineOptions low = options();
+  low.height = -3;
+  EXPECT_THAT(
+      outline_of(kProgram, low),
+      HasSubstr("the rectangle\n; lower than the highest feed move, at Z2: look whether the way around is free\nG71"));
+  low.height = 2;
+  EXPECT_THAT(outline_of(kProgram, low), Not(HasSubstr("; lower")));
+}
+
 TEST(OutlineProgram, KeepsTheClearanceOfTheMachine) {
   OutlineOptions machine = options();
   machine.run.setup.clearance = 25;
