@@ -113,6 +113,16 @@ std::vector<Contour> contours(const CoveredArea& area, OutlineShape shape) {
   return {};
 }
 
+/// Leaves out corners that are written as the one before: a plunge of a tool without a radius has but one.
+void merge_corners(Contour& contour) {
+  constexpr double kWritten = 5e-4;  // mm
+  const auto is_same = [](const OutlinePoint& a, const OutlinePoint& b) {
+    return (a - b).cwiseAbs().maxCoeff() < kWritten;
+  };
+  contour.erase(std::unique(contour.begin(), contour.end(), is_same), contour.end());
+  while (contour.size() > 1 && is_same(contour.front(), contour.back())) contour.pop_back();
+}
+
 /// Each contour begins at its corner next to where the way there comes from: first `start`, then the last contour.
 void order(std::vector<Contour>& contours, OutlinePoint start) {
   for (auto next = contours.begin(); next != contours.end(); ++next) {
@@ -166,14 +176,16 @@ std::variant<std::string, OutlineRefusal> outline_program(std::string_view text,
   add("G00 Z" + shown(top));
   if (home.b != 0 || home.c != 0) add("B0 C0");
   std::vector<Contour> all = contours(job.area, options.shape);
+  std::for_each(all.begin(), all.end(), merge_corners);
   order(all, job.start);
   const auto in_frame = [&](const OutlinePoint& point) { return at(point - origin.head<2>()); };
   bool is_first = true;
   for (const Contour& contour : all) {
     add((is_first ? "" : "G00 ") + in_frame(contour.front()));
     if (height != top) add("Z" + shown(height));
-    add("G01 " + in_frame(contour[1 % contour.size()]) + " F" + shown(options.feed));
-    for (std::size_t i = 2; i <= contour.size(); ++i) add(in_frame(contour[i % contour.size()]));
+    const std::size_t corners = contour.size();
+    if (corners > 1) add("G01 " + in_frame(contour[1]) + " F" + shown(options.feed));
+    for (std::size_t i = 2; corners > 1 && i <= corners; ++i) add(in_frame(contour[i % corners]));
     if (height != top) add("G00 Z" + shown(top));
     is_first = false;
   }

@@ -8,6 +8,7 @@
 namespace isocnc::outline {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -59,6 +60,15 @@ TEST(OutlineProgram, SaysThatItGoesAroundBelowTheWork) {
       HasSubstr("the rectangle\n; lower than the highest feed move, at Z2: look whether the way around is free\nG71"));
   low.height = 2;
   EXPECT_THAT(outline_of(kProgram, low), Not(HasSubstr("; lower")));
+}
+
+TEST(OutlineProgram, GoesToAPlungeOnce) {
+  const std::string head = "; not widened for T101002: its radius is not known\nG71 G90\nM06 T101002\nG00 Z500\n";
+  const auto around = [](const std::string& moves) {
+    return outline_of("M06 T101002\nG00 Z50\n" + moves + "G00 Z50\nM02\n", options());
+  };
+  EXPECT_THAT(around("G01 Z0 F1000\n"), EndsWith(head + "X0 Y0\nZ55\nG00 Z500\nM02\n"));
+  EXPECT_THAT(around("G01 Z0 F1000\nX30\n"), EndsWith(head + "X0 Y0\nZ55\nG01 X30 Y0 F1000\nX0 Y0\nG00 Z500\nM02\n"));
 }
 
 TEST(OutlineProgram, KeepsTheClearanceOfTheMachine) {
