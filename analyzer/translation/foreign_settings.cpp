@@ -20,28 +20,21 @@ static bool has_function(const std::vector<int>& functions, int number) {
 
 /// The mode that a G sets for the lines below.
 std::optional<UnknownMode> TranslationRun::mode_of(ForeignRole role) {
-  switch (role) {
-    case Plane:
-      return UnknownMode::Plane;
-    case Inches:
-    case Millimeters:
-      return UnknownMode::Units;
-    case Absolute:
-    case Incremental:
-      return UnknownMode::Distance;
-    case InverseTime:
-    case PerMinute:
-    case PerTurn:
-      return UnknownMode::FeedMode;
-    case CentersAbsolute:
-    case CentersRelative:
-      return UnknownMode::Centers;
-    case RetractInitial:
-    case RetractR:
-      return UnknownMode::Retract;
-    default:
-      return std::nullopt;
-  }
+  static constexpr std::pair<ForeignRole, UnknownMode> kModes[] = {{Plane, UnknownMode::Plane},
+                                                                   {Inches, UnknownMode::Units},
+                                                                   {Millimeters, UnknownMode::Units},
+                                                                   {Absolute, UnknownMode::Distance},
+                                                                   {Incremental, UnknownMode::Distance},
+                                                                   {InverseTime, UnknownMode::FeedMode},
+                                                                   {PerMinute, UnknownMode::FeedMode},
+                                                                   {PerTurn, UnknownMode::FeedMode},
+                                                                   {CentersAbsolute, UnknownMode::Centers},
+                                                                   {CentersRelative, UnknownMode::Centers},
+                                                                   {RetractInitial, UnknownMode::Retract},
+                                                                   {RetractR, UnknownMode::Retract}};
+  for (const auto& [setting, mode] : kModes)
+    if (setting == role) return mode;
+  return std::nullopt;
 }
 
 void TranslationRun::apply_modals(CurrentBlock& current) {

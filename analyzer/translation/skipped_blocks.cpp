@@ -7,42 +7,20 @@ using enum ForeignRole;
 
 /// Whether a G changes nothing.
 bool TranslationRun::is_in_force(const CurrentBlock& current, int tenths, ForeignRole role) const {
-  switch (role) {
-    case Motion:
-    case Cycle:
-      return motion_ == tenths / 10;
-    case CycleEnd:
-      return motion_ < 0;
-    case Plane:
-      return now_.plane == tenths / 10;
-    case Inches:
-    case Millimeters:
-      return now_.inches == (role == Inches);
-    case Absolute:
-    case Incremental:
-      return now_.incremental == (role == Incremental);
-    case CentersAbsolute:
-    case CentersRelative:
-      return centers_absolute_ == (role == CentersAbsolute);
-    case InverseTime:
-    case PerMinute:
-      return now_.inverse_time == (role == InverseTime) && !suspended_by_.contains(PerTurn);
-    case RetractInitial:
-    case RetractR:
-      return retracts_to_r_ == (role == RetractR);
-    case Compensation:
-    case CompensationOff:
-      return compensation_ == tenths / 10;
-    case RotationOff:
-      return !frames_.rotation;
-    case ZeroPoint:
-      return frames_.selected == tenths && !is_further_zero(current, role);
-    case ClearShift:
-    case SuspendShift:
-      return frames_.shift == Vec3::Zero();
-    default:
-      return false;
-  }
+  if (role == Motion || role == Cycle) return motion_ == tenths / 10;
+  if (role == CycleEnd) return motion_ < 0;
+  if (role == Plane) return now_.plane == tenths / 10;
+  if (role == Inches || role == Millimeters) return now_.inches == (role == Inches);
+  if (role == Absolute || role == Incremental) return now_.incremental == (role == Incremental);
+  if (role == CentersAbsolute || role == CentersRelative) return centers_absolute_ == (role == CentersAbsolute);
+  if (role == InverseTime || role == PerMinute)
+    return now_.inverse_time == (role == InverseTime) && !suspended_by_.contains(PerTurn);
+  if (role == RetractInitial || role == RetractR) return retracts_to_r_ == (role == RetractR);
+  if (role == Compensation || role == CompensationOff) return compensation_ == tenths / 10;
+  if (role == RotationOff) return !frames_.rotation;
+  if (role == ZeroPoint) return frames_.selected == tenths && !is_further_zero(current, role);
+  if (role == ClearShift || role == SuspendShift) return frames_.shift == Vec3::Zero();
+  return false;
 }
 
 /// A block that the operator may skip: whether what it changes holds from there on is not known.
