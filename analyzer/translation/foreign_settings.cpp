@@ -60,7 +60,7 @@ void TranslationRun::apply_modals(CurrentBlock& current) {
   apply_suspensions(current);
 }
 
-/// M72: whichever modes an M70 has saved are in force again.
+/// Any modes may be in force: an M72 restores what an M70 has saved, and a subprogram sets its own.
 void TranslationRun::forget_modes() {
   unknown_.insert({UnknownMode::Plane, UnknownMode::Units, UnknownMode::Distance, UnknownMode::FeedMode,
                    UnknownMode::Centers, UnknownMode::Retract, UnknownMode::ZeroPoint});

@@ -319,7 +319,9 @@ void TranslationRun::refuse(CurrentBlock& current, const std::optional<BlockRefu
   if (current.has(Unknown) || current.has(CycleUnknown) || changes_cycle)
     motion_ = -1;  // Not known on the lines below.
   const auto has_m = [&](int m) { return std::find(current.ms.begin(), current.ms.end(), m) != current.ms.end(); };
-  if (has_m(72) && setup_.control == SourceControl::LinuxCnc) forget_modes();
+  const bool restores_modes = has_m(72) && setup_.control == SourceControl::LinuxCnc;
+  const bool may_call = current.block.skip_at && has_m(98);  // Lines that may set any mode.
+  if (restores_modes || may_call) forget_modes();
   const bool changes_tool = has_m(6);
   if (changes_tool) {
     tool_is_wrong_ = true;
