@@ -8,6 +8,14 @@ namespace isocnc::configuration {
 
 namespace fs = std::filesystem;
 
+/// Names are found in upper and lower case, as programs by their extensions: a PART.ISO has the setup for *.iso.
+static std::string without_case(std::string_view text) {
+  std::string folded(text);
+  for (char& c : folded)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return folded;
+}
+
 std::optional<PathPatterns::Pattern> PathPatterns::parse(std::string_view text) {
   Pattern pattern;
   pattern.only_directories = text.ends_with('/');
@@ -16,7 +24,7 @@ std::optional<PathPatterns::Pattern> PathPatterns::parse(std::string_view text) 
   pattern.whole_path = text.find('/') != std::string_view::npos;
   if (text.starts_with('/')) text.remove_prefix(1);
   if (text.empty()) return std::nullopt;
-  std::optional<system::Glob> glob = system::Glob::parse(text, pattern.whole_path);
+  std::optional<system::Glob> glob = system::Glob::parse(without_case(text), pattern.whole_path);
   if (!glob) return std::nullopt;
   pattern.glob = std::move(*glob);
   return pattern;
@@ -35,8 +43,8 @@ bool PathPatterns::name(const fs::path& path, bool is_directory) const {
   const bool is_below = !below.empty() && *below.begin() != "..";
   return std::any_of(patterns_.begin(), patterns_.end(), [&](const Pattern& pattern) {
     if (pattern.only_directories && !is_directory) return false;
-    if (!pattern.whole_path) return pattern.glob.matches(path.filename().generic_string());
-    return is_below && pattern.glob.matches(system::generic_name(below));
+    if (!pattern.whole_path) return pattern.glob.matches(without_case(path.filename().generic_string()));
+    return is_below && pattern.glob.matches(without_case(system::generic_name(below)));
   });
 }
 

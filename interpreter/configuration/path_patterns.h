@@ -12,7 +12,7 @@ namespace isocnc::configuration {
 
 /// Path patterns as in gitignore(5), relative to a folder. A pattern without a slash matches files and folders at any
 /// depth, one with a slash inside matches a path from the folder, and one with a slash at its end matches folders only.
-/// The content of a matched folder is matched, too.
+/// The content of a matched folder is matched, too. Latin letters match in upper and lower case.
 class PathPatterns {
  public:
   PathPatterns() = default;

@@ -103,7 +103,8 @@ bool Scenes::is_mistaken(const Configuration& configuration, const fs::path& pro
 /// The scene of the last entry of `setups` for the program, or of the machine alone.
 Scenes::ScenePointer Scenes::scene_of_entry(const Configuration& configuration, const fs::path& program) {
   const std::optional<std::size_t> last = entry_of(configuration, program);
-  if (!last && configuration.machine.bodies.empty()) return nullptr;
+  // A program that no entry names is told, wherever others have one.
+  if (!last && configuration.machine.bodies.empty() && configuration.setups.empty()) return nullptr;
   const auto [known, is_new] = entries_.try_emplace({&configuration, last});
   if (is_new && last) {
     known->second = make(

@@ -120,11 +120,13 @@ class PairsMaker {
   }
 
   /// Whether motions bring both nearer together, and they are not made to touch: what carries the nose touches it,
-  /// links that carry one another touch as well, and so do bodies that touch from the start.
+  /// links that carry one another touch as well, and so do bodies that touch from the start. What turns in a cradle
+  /// comes around to what stands on it.
   bool may_meet(const MovingPart& part, const Obstacle& obstacle) const {
     const bool is_own = carries_spindle(obstacle.on);
     if (part.revolved) return !(is_own && part.of_spindle == ToolPart::Nose);
-    if (carries_spindle(part.on) ? is_own : obstacle.on != Link::Machine) return false;
+    const bool turns_in_cradle = part.on == Link::C && obstacle.on == Link::B;
+    if (carries_spindle(part.on) ? is_own : obstacle.on != Link::Machine && !turns_in_cradle) return false;
     return !are_among(scene_.at_home.touching, part, obstacle);
   }
 
@@ -201,7 +203,7 @@ class PairsMaker {
       pair.shifts = carries_spindle(part.on);
     }
     const bool is_on_table = obstacle.on == Link::B || obstacle.on == Link::C;
-    pair.swings = is_on_table;
+    pair.swings = is_on_table && (part.revolved != nullptr || carries_spindle(part.on));
     // Nothing that turns lies between the spindle and the machine.
     if (!is_head && obstacle.on == Link::Machine && pair.shifts) pair.reach_axes = 0;
   }

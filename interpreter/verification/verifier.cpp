@@ -89,7 +89,8 @@ void Verifier::mount(const execution::ToolCode& tool, const running::Event& even
   waiting_.push_back({.line = event.line, .frame = frames_.size() - 1, .is_in_inches = event.is_in_inches});
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;
-  if ((has_length && has_shape) || !known_gaps_.insert(tool).second) return;
+  const bool is_empty = mounted.name.empty();  // After T000000 nothing of a tool is there.
+  if (is_empty || (has_length && has_shape) || !known_gaps_.insert(tool).second) return;
   certificate_.gaps.push_back({.gap = has_length ? Gap::ToolWithoutShape : Gap::ToolWithoutLength,
                                .line = event.line,
                                .name = dialect::GivenName::of({mounted.name, mounted.name})});

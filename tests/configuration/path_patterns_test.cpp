@@ -41,6 +41,13 @@ TEST(PathPatterns, DoNotLookAboveTheirFolder) {
   EXPECT_FALSE(matches("/elsewhere/*.iso", "/elsewhere/a.iso"));
 }
 
+/// As a search finds programs by their extensions.
+TEST(PathPatterns, MatchInUpperAndLowerCase) {
+  EXPECT_TRUE(matches("*.iso", "/shop/parts/PART.ISO"));
+  EXPECT_TRUE(matches("Old/[A-C]*.ISO", "/shop/parts/old/b1.iso"));
+  EXPECT_FALSE(matches("*.iso", "/shop/parts/PART.NC"));
+}
+
 TEST(PathPatterns, AreWellFormedOrNot) {
   for (const char* const pattern : {"a", "*", "a/", "/a/", "[a-z]*.iso", "**/x", "\\!a"})
     EXPECT_TRUE(PathPatterns::is_well_formed(pattern)) << pattern;

@@ -94,9 +94,10 @@ TEST_F(SceneFiles, GiveNoSceneWithoutASetup) {
     "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 90, "radius": 5, "shape": "flat"}]},
     "setups": [{"paths": ["b.iso"]}]})");
   Configurations read({}, Language::English);
-  EXPECT_EQ(scenes_.of(read.of(path("a.iso")), path("a.iso")), nullptr);
-  EXPECT_EQ(scenes_.of(read.of(path("a.iso")), ""), nullptr);
-  EXPECT_NE(scenes_.of(read.of(path("b.iso")), path("b.iso")), nullptr);
+  // Where other programs have one, that is told.
+  EXPECT_FALSE(scenes_.of(read.of(path("a.iso")), path("a.iso"))->has_setup);
+  EXPECT_FALSE(scenes_.of(read.of(path("a.iso")), "")->has_setup);
+  EXPECT_TRUE(scenes_.of(read.of(path("b.iso")), path("b.iso"))->has_setup);
   EXPECT_EQ(mistakes(), "");
 }
 
@@ -199,7 +200,8 @@ TEST_F(SceneFiles, CountTheLastEntryThatNamesTheProgram) {
   EXPECT_EQ(scene("b1.iso")->clearance, 4);
   EXPECT_EQ(scene("b2.iso")->clearance, 5);
   EXPECT_EQ(scene("sub/b2.iso")->clearance, 4);
-  EXPECT_EQ(scene("c.nc"), nullptr);
+  EXPECT_FALSE(scene("c.nc")->has_setup);
+  EXPECT_EQ(scene("C.ISO")->clearance, 1);
   EXPECT_EQ(scene("d.iso"), scene("c.iso")) << "programs share the scene of an entry";
 }
 

@@ -135,6 +135,27 @@ TEST(MovingBodies, TableCarriesTheSetup) {
   EXPECT_EQ(hits(shop.run("M06 T101001\nG00 X0 Y0 Z200\nG49\nG01 C-90 F1000\nZ0\nM02\n")), "E152 slide | clamp\n");
 }
 
+/// A clamp that C carries comes around into the wall of the cradle: first its side meets the wall's edge, 158.1 from
+/// the axis, and then its corners, 161.2 from the axis, go through the wall's face at 150.
+TEST(MovingBodies, TableTurnsTheSetupIntoItsCradle) {
+  for (const Link carrier : {Link::B, Link::Machine}) {
+    Shop shop(MachineKind::Table);
+    shop.scene.clearance = 0;
+    shop.box("clamp", {-160, -20, 10}, {-120, 20, 60});
+    on_machine(shop, "wall", carrier, solids::Cuboid{{150, -50, 0}, {170, 50, 100}});
+    const std::string program = "M06 T101001\nG00 X0 Y0 Z200\nG49\nG01 C180 F1000\nM02\n";
+    const VerifiedRun run = shop.run(program);
+    EXPECT_EQ(hits(run), "E153 clamp | wall\n");
+    ASSERT_EQ(run.contacts.size(), 1u);
+    EXPECT_NEAR(run.contacts[0].distance, 150 - std::hypot(160, 20), 0.021);
+    const double touch = 180 - (std::atan2(50, 150) + std::asin(20 / std::hypot(150, 50))) * kDegrees;
+    EXPECT_NEAR(std::abs(joints_at(shop, program, run.contacts[0].time)[kinematics::kC]), touch, 0.021 / 50 * kDegrees);
+    shop.scene.machine.clear();
+    on_machine(shop, "wall", carrier, solids::Cuboid{{161.3, -50, 0}, {170, 50, 100}});
+    EXPECT_EQ(hits(shop.run(program)), "");
+  }
+}
+
 /// An arm swings over a pin at a gap that is known by construction, with each shape that it can have.
 TEST(MovingBodies, KnownGapsAreFoundToTheDigit) {
   for (const std::uint64_t seed : support::seeds(200)) {
