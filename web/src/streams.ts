@@ -37,7 +37,7 @@ function provide(module: Module, text: string): void {
   const stream = redirect(module, 0, input, 'r');
   const utf8 = new TextEncoder();
   let position = 0;
-  let rest = new Uint8Array(); // Of a character that has no room where the reader ends.
+  let rest: Uint8Array = new Uint8Array(); // Of a character that has no room where the reader ends.
   stream.stream_ops = {
     ...stream.stream_ops,
     read(_stream, bytes, offset, length) {
