@@ -177,19 +177,17 @@ ChangeList::FrameCause ChangeList::cause_of(const MachineAction& left, const Mac
   return {line_of(old_frame, left.frame), line_of(new_frame, right.frame)};
 }
 
-/// Whether the same frame is in force in both.
-bool ChangeList::has_same_frame(const MachineAction& left, const MachineAction& right) const {
-  const geometry::Frame& old_frame = runs_.a.frames[left.frame].frame;
-  const geometry::Frame& new_frame = runs_.b.frames[right.frame].frame;
-  return (new_frame.origin - old_frame.origin).norm() <= options_.tolerance && old_frame.axes.isApprox(new_frame.axes);
-}
-
-/// Whether two frames differ by just this vector.
+/// Whether the frames in force in both differ by just this vector.
 bool ChangeList::is_shift_of_frame(const MachineAction& left, const MachineAction& right, const Vec3& shift) const {
   const geometry::Frame& old_frame = runs_.a.frames[left.frame].frame;
   const geometry::Frame& new_frame = runs_.b.frames[right.frame].frame;
   return (new_frame.origin - old_frame.origin - shift).norm() <= options_.tolerance &&
          old_frame.axes.isApprox(new_frame.axes);
+}
+
+/// Whether the same frame is in force in both.
+bool ChangeList::has_same_frame(const MachineAction& left, const MachineAction& right) const {
+  return is_shift_of_frame(left, right, Vec3::Zero());
 }
 
 /// The first actions of a shifted range, up to those that another frame moves, by the same vector.
