@@ -38,24 +38,43 @@ static AngleJet angle(const Jet& jet, MachineAxis axis, double sense) {
 
 static VectorJet linear(const Jet& jet) { return {jet.value.head<3>(), jet.first.head<3>(), jet.second.head<3>()}; }
 
-/// Rotates a vector that itself changes, about `axis`. The derivative is that in a rotating frame:
+namespace {
+
+/// A rotation about Y.
+struct AboutY {
+  static Vec3 turned(const geometry::SineCosine& by, const Vec3& v) {
+    return {by.cosine * v.x() + by.sine * v.z(), v.y(), by.cosine * v.z() - by.sine * v.x()};
+  }
+  /// The cross product of the axis and a vector.
+  static Vec3 across(const Vec3& v) { return {v.z(), 0, -v.x()}; }
+};
+
+/// A rotation about Z.
+struct AboutZ {
+  static Vec3 turned(const geometry::SineCosine& by, const Vec3& v) {
+    return {by.cosine * v.x() - by.sine * v.y(), by.sine * v.x() + by.cosine * v.y(), v.z()};
+  }
+  static Vec3 across(const Vec3& v) { return {-v.y(), v.x(), 0}; }
+};
+
+}  // namespace
+
+/// Rotates a vector that itself changes. The derivative is that in a rotating frame:
 /// (R v)' = angle' (axis x R v) + R v'.
-static VectorJet turn(const Mat3& rotation, const Vec3& axis, const AngleJet& angle, const VectorJet& v) {
-  const Vec3 value = rotation * v.value;
-  const Vec3 slope = rotation * v.first;
-  const Vec3 across = axis.cross(value);
+template <class Axis>
+static VectorJet turn(const AngleJet& angle, const VectorJet& v) {
+  const geometry::SineCosine by = geometry::sine_and_cosine(angle.degrees);
+  const Vec3 value = Axis::turned(by, v.value);
+  const Vec3 slope = Axis::turned(by, v.first);
+  const Vec3 across = Axis::across(value);
   return {value, angle.first * across + slope,
-          angle.second * across + angle.first * angle.first * axis.cross(across) + 2 * angle.first * axis.cross(slope) +
-              rotation * v.second};
+          angle.second * across + angle.first * angle.first * Axis::across(across) +
+              2 * angle.first * Axis::across(slope) + Axis::turned(by, v.second)};
 }
 
-static VectorJet turn_about_z(const AngleJet& c, const VectorJet& v) {
-  return turn(geometry::axes_from_angles(0, c.degrees), Vec3::UnitZ(), c, v);
-}
+static VectorJet turn_about_z(const AngleJet& c, const VectorJet& v) { return turn<AboutZ>(c, v); }
 
-static VectorJet turn_about_y(const AngleJet& b, const VectorJet& v) {
-  return turn(geometry::axes_from_angles(b.degrees, 0), Vec3::UnitY(), b, v);
-}
+static VectorJet turn_about_y(const AngleJet& b, const VectorJet& v) { return turn<AboutY>(b, v); }
 
 static VectorJet shifted(VectorJet v, const Vec3& by) {
   v.value += by;

@@ -112,32 +112,55 @@ LineLimits smoothed_limits(const Machine& machine, const Smoothing& smoothing, c
   return result;
 }
 
-CurveLimits::CurveLimits(const Machine& machine, const Jet& begin, const Jet& end, const HigherDerivativeBounds& higher,
-                         double length)
-    : length_(length) {
-  const double bulge = square(length_) / 8;
+namespace {
+
+/// By how much a joint's first two derivatives deviate at most from the straight line between the ends of a piece.
+struct Slack {
+  double first = 0;
+  double second = 0;
+};
+
+Slack slack_of(int axis, const HigherDerivativeBounds& higher, double length) {
+  if (axis >= kB) return {};
+  const double bulge = square(length) / 8;
+  return {bulge * higher.third[axis], bulge * higher.fourth[axis]};
+}
+
+}  // namespace
+
+/// Returns the maximum of x by the speeds and accelerations of the axes on a piece of a curve.
+static double cap_between(const Machine& machine, const Jet& begin, const Jet& end,
+                          const HigherDerivativeBounds& higher, double length) {
   double by_speed = 0;         // Inverse of the maximum of ds/dt.
   double by_acceleration = 0;  // Inverse of the maximum of x.
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
-    const double first_slack = axis < kB ? bulge * higher.third[axis] : 0;
-    const double second_slack = axis < kB ? bulge * higher.fourth[axis] : 0;
+    const Slack slack = slack_of(axis, higher, length);
+    const double first = std::max(std::abs(begin.first[axis]), std::abs(end.first[axis]));
+    const double second = std::max(std::abs(begin.second[axis]), std::abs(end.second[axis]));
+    by_speed = std::max(by_speed, 1 / limits.speed * (first + slack.first));
+    by_acceleration = std::max(by_acceleration, 1 / limits.acceleration * (second + slack.second));
+  }
+  return 1 / std::max(square(by_speed), by_acceleration);
+}
+
+CurveLimits::CurveLimits(const Machine& machine, const Jet& begin, const Jet& end, const HigherDerivativeBounds& higher,
+                         double length)
+    : length_(length), cap_(cap_between(machine, begin, end, higher, length)) {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const Slack slack = slack_of(axis, higher, length);
     const auto rests = [&](const Jet& jet) { return jet.first[axis] == 0 && jet.second[axis] == 0; };
-    if (rests(begin) && rests(end) && first_slack == 0) continue;
-    const double part = 1 / limits.acceleration;
-    const double speed_part = 1 / limits.speed;
+    if (rests(begin) && rests(end) && slack.first == 0) continue;
+    const double part = 1 / machine.axes[static_cast<std::size_t>(axis)].acceleration;
     for (const Jet* const jet : {&begin, &end}) {
       const double first = jet->first[axis];
       const double second = jet->second[axis];
-      by_speed = std::max(by_speed, speed_part * (std::abs(first) + first_slack));
-      by_acceleration = std::max(by_acceleration, part * (std::abs(second) + second_slack));
-      add(forward_, part * (second_slack + second), part * (first_slack + first));
-      add(forward_, part * (second_slack - second), part * (first_slack - first));
-      add(backward_, part * (second_slack + second), part * (first_slack - first));
-      add(backward_, part * (second_slack - second), part * (first_slack + first));
+      add(forward_, part * (slack.second + second), part * (slack.first + first));
+      add(forward_, part * (slack.second - second), part * (slack.first - first));
+      add(backward_, part * (slack.second + second), part * (slack.first - first));
+      add(backward_, part * (slack.second - second), part * (slack.first + first));
     }
   }
-  cap_ = 1 / std::max(square(by_speed), by_acceleration);
 }
 
 /// Adds a bound. Bounds with n <= 0 are omitted, since they hold for every x within the cap.
@@ -145,9 +168,19 @@ void CurveLimits::add(Bounds& bounds, double m, double n) const {
   if (n > 0) bounds.bounds[bounds.count++] = {m, n, 1 / (n + 2 * length_ * std::max(m, 0.0))};
 }
 
-CurveLimits curve_limits(const Machine& machine, const Path& path, double from, double to) {
-  return {machine, path.joints_at(machine.kinematics, from), path.joints_at(machine.kinematics, to),
-          higher_derivative_bounds(machine.kinematics, path, from, to), to - from};
+double curve_cap(const Machine& machine, const Path& path, double length, int count) {
+  double cap = kInfinity;
+  double from = 0;
+  Jet at_from = path.joints_at(machine.kinematics, from);
+  for (int i = 1; i <= count; ++i) {
+    const double to = length * i / count;
+    const Jet at_to = path.joints_at(machine.kinematics, to);
+    const HigherDerivativeBounds higher = higher_derivative_bounds(machine.kinematics, path, from, to);
+    cap = std::min(cap, cap_between(machine, at_from, at_to, higher, to - from));
+    from = to;
+    at_from = at_to;
+  }
+  return cap;
 }
 
 /// With a constant a, the piece keeps the bounds if both of its ends do: the bounds are linear in x and a.

@@ -55,7 +55,8 @@ class CurveLimits {
   double cap_;     ///< Maximum of x.
 };
 
-CurveLimits curve_limits(const Machine& machine, const Path& path, double from, double to);
+/// Returns the smallest cap of x on `count` equal pieces of a path that begins at s = 0.
+double curve_cap(const Machine& machine, const Path& path, double length, int count);
 
 /// Returns the maximum of x at the end of a piece that starts with `x`, or with bounds of Direction::Backward, at the
 /// start of a piece that ends with `x`. The caller applies the cap of x.

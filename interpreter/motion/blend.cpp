@@ -108,19 +108,12 @@ static Caps axes_caps(const kinematics::Machine& machine, const kinematics::Coor
   return caps;
 }
 
-/// Returns the cap of a blend of the tip, whose joints follow curves: the minimum of the caps of its parts.
-static double following_cap(const kinematics::Machine& machine, const Blend& blend) {
-  constexpr int kPieces = 4;
-  double cap = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kPieces; ++i)
-    cap = std::min(
-        cap, kinematics::curve_limits(machine, blend.path, blend.length * i / kPieces, blend.length * (i + 1) / kPieces)
-                 .cap());
-  return cap;
-}
+/// Number of parts of a blend of the tip, whose joints follow curves: the smallest of their caps is that of the blend.
+static constexpr int kBlendParts = 4;
 
 static Caps caps_of(const kinematics::Machine& machine, kinematics::Space space, const Blend& blend) {
-  if (space == kinematics::Space::Tip) return {.by_acceleration = following_cap(machine, blend)};
+  if (space == kinematics::Space::Tip)
+    return {.by_acceleration = kinematics::curve_cap(machine, blend.path, blend.length, kBlendParts)};
   const auto& c = blend.path.c;
   const kinematics::Coordinates cubic = 3 * blend.length * c[3];
   kinematics::Coordinates slopes[3] = {c[1], c[1] + blend.length * c[2], c[1] + blend.length * (2 * c[2] + cubic)};
