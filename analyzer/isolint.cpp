@@ -144,8 +144,10 @@ ExitStatus check(LintCommandOptions options) {
   if (options.paths.empty()) options.paths = {"."};
   configuration::Configurations configurations(options.source, options.reader_language());
   options.follow(configurations.of(input::place_of_program(options.paths.front(), options.stdin_name)));
-  const formats::ReportStyle style{
-      .language = options.reader_language(), .color = options.wants_color(), .unsafe_fixes = options.unsafe_fixes};
+  const formats::ReportStyle style{.language = options.reader_language(),
+                                   .color = options.wants_color(),
+                                   .unsafe_fixes = options.unsafe_fixes,
+                                   .shard = options.shard};
   const std::vector<std::string> problems = selection::Selection().follow(options.selection, style.language);
   for (const std::string& problem : problems) complain(problem);
   if (!problems.empty()) return ExitStatus::Failure;

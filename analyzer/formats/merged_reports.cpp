@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analyzer/formats/sarif_log.h"
+#include "interpreter/dialect/format.h"
 
 namespace isocnc::formats {
 
@@ -25,6 +26,9 @@ static constexpr Text kNoReport = {"this is no report of isolint --format json o
 static constexpr Text kMixed = {"this report has another format than the first", "il formato non è quello del primo"};
 static constexpr Text kOtherHeader = {"this report comes from another version of isolint, or is in another language",
                                       "viene da un'altra versione di isolint, oppure è in un'altra lingua"};
+
+static constexpr Text kMissingPart = {"--merge: the report of part {} is missing",
+                                      "--merge: manca il rapporto della parte {}"};
 
 namespace {
 
@@ -123,9 +127,11 @@ class SarifMerger {
  public:
   void add(const OrderedJson& report) {
     const OrderedJson& run = report.at("runs").at(0);
+    if (run.contains("properties")) add_part(run.at("properties").at("shard").get<std::string>());
     const OrderedJson& driver = run.at("tool").at("driver");
     SarifLog::Header header{.version = driver.at("version").get<std::string>(),
                             .language = run.at("language").get<std::string>(),
+                            .shard = {},
                             .rules = {}};
     for (const OrderedJson& rule : driver.at("rules")) header.rules.push_back(dumped(rule));
     if (!header_) header_ = header;
@@ -139,6 +145,14 @@ class SarifMerger {
       const std::string path = path_of(uri_in(artifacts.at(place.at("index").get<std::size_t>())));
       if (files_[path].add(numberless, dumped(numberless))) count(result.at("level").get<std::string>(), merged_);
     }
+  }
+
+  /// The first part, as `3/8`, that none of the logs is of, although some are of others of as many parts.
+  std::optional<std::string> missing_part() const {
+    for (const auto& [count, known] : parts_)
+      for (unsigned long i = 1; i <= count; ++i)
+        if (!known.contains(i)) return fmt::format("{}/{}", i, count);
+    return std::nullopt;
   }
 
   MergedReport finish() {
@@ -158,11 +172,20 @@ class SarifMerger {
   }
 
  private:
+  /// Takes the part of the files that a log is of: `2/8`.
+  void add_part(const std::string& part) {
+    std::size_t slash = 0;
+    const unsigned long number = std::stoul(part, &slash);
+    if (slash >= part.size() || part[slash] != '/') throw Refusal{kNoReport};
+    parts_[std::stoul(part.substr(slash + 1))].insert(number);
+  }
+
   static std::string uri_in(const OrderedJson& artifact) {
     return artifact.at("location").at("uri").get<std::string>();
   }
 
   std::optional<SarifLog::Header> header_;
+  std::map<unsigned long, std::set<unsigned long>> parts_;  ///< By their number: those that the logs are of, from 1.
   std::map<std::string, std::string> artifacts_;
   FindingsByFile files_;
   MergedReport merged_;
@@ -193,6 +216,8 @@ std::variant<MergedReport, std::string> merge_reports(std::span<const ReportFile
       return refuse(kNoReport);
     }
   }
+  if (const std::optional<std::string> missing = sarif.missing_part())
+    return dialect::format(kMissingPart, language, *missing);
   return is_sarif.value_or(false) ? sarif.finish() : json.finish();
 }
 

@@ -32,8 +32,10 @@ class SarifRenderer final : public Renderer {
   explicit SarifRenderer(const ReportStyle& style) : style_(style) {}
 
   void begin(std::string& output) override {
-    SarifLog::Header header{
-        .version = ISOCNC_VERSION, .language = std::string(dialect::name_of(style_.language)), .rules = {}};
+    SarifLog::Header header{.version = ISOCNC_VERSION,
+                            .language = std::string(dialect::name_of(style_.language)),
+                            .shard = style_.shard,
+                            .rules = {}};
     for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i)
       header.rules.push_back(dumped(rule(DiagnosticId{static_cast<std::uint8_t>(i)})));
     log_.begin(header, output);

@@ -21,6 +21,7 @@ struct ReportStyle {
   dialect::Language language = dialect::Language::English;
   bool color = false;
   bool unsafe_fixes = false;  ///< Whether --fix would include unsafe fixes.
+  std::string shard;          ///< `2/8` if only this part of the files is checked, else empty.
 };
 
 /// A finding as the formats show it: lines and columns from 1, columns in code points, the end exclusive.

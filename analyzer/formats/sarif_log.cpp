@@ -29,9 +29,10 @@ void SarifLog::begin(const Header& header, std::string& output) {
                  "\"tool\":{{\"driver\":{{\"name\":\"isolint\",\"version\":\"{}\",\"rules\":[",
                  header.version);
   append_lines(header.rules, output);
-  fmt::format_to(std::back_inserter(output),
-                 "\n]}}}},\n\"language\":\"{}\",\n\"columnKind\":\"unicodeCodePoints\",\n\"results\":[",
-                 header.language);
+  fmt::format_to(std::back_inserter(output), "\n]}}}},\n\"language\":\"{}\",\n", header.language);
+  if (!header.shard.empty())
+    fmt::format_to(std::back_inserter(output), "\"properties\":{{\"shard\":\"{}\"}},\n", header.shard);
+  output += "\"columnKind\":\"unicodeCodePoints\",\n\"results\":[";
 }
 
 void SarifLog::add_result(std::string_view result, std::string& output) {

@@ -18,6 +18,7 @@ class SarifLog {
   struct Header {
     std::string version;   ///< Of the program that has checked.
     std::string language;  ///< Of the messages: `en`, `it`.
+    std::string shard;     ///< `2/8` if the log is of one part of the files (--shard), else empty.
     std::vector<std::string> rules;
 
     friend bool operator==(const Header&, const Header&) = default;

@@ -66,6 +66,11 @@ TEST_F(IsolintShards, MergeToTheWholeReport) {
       EXPECT_EQ(findings, count == 1 ? 0 : count) << "each part is less than the whole";
       merging.push_back(merging.back());
       EXPECT_EQ(run(merging).out, whole) << "a report counts once";
+      if (format != "sarif") continue;  // A JSON report is a plain list of findings.
+      merging.erase(std::remove(merging.begin(), merging.end(), "sarif2"), merging.end());
+      const CommandResult gap = run(merging);
+      EXPECT_EQ(gap.status, 2);
+      EXPECT_EQ(gap.err, "isolint: --merge: the report of part 2/3 is missing\n");
     }
   }
 }
