@@ -34,6 +34,7 @@ struct LocatedFinding {
   std::optional<dialect::Severity> selected;  ///< The severity that a selection has set.
   bool is_of_run = false;                     ///< Whether only a run on the machine shows it.
   std::optional<std::size_t> last_line;       ///< Of a run's finding: where it ends, if on another line; from 0.
+  std::optional<std::size_t> worst_line;      ///< Of a run's finding: as RunFinding::worst_line.
   std::optional<std::size_t> shaped_by;       ///< Of a run's finding: as RunFinding::shaped_by.
 
   dialect::Severity severity() const {

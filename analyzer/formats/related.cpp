@@ -98,6 +98,8 @@ std::optional<RelatedPlace> RelatedPlaces::of(const check::LocatedFinding& locat
 
 std::vector<RunPlace> run_places(const check::LocatedFinding& located, dialect::Language language) {
   static constexpr dialect::Text kLasts = {"it lasts until here", "dura fino a qui"};
+  static constexpr dialect::Text kDeepest = {"it is deepest here", "qui è più profondo"};
+  static constexpr dialect::Text kNearest = {"it is nearest here", "qui è più vicino"};
   static constexpr dialect::Text kCutLast = {"what is met was last cut here",
                                              "ciò che si incontra è stato tagliato per ultimo qui"};
   static constexpr dialect::Text kStopped = {"the spindle was stopped here", "il mandrino è stato fermato qui"};
@@ -105,6 +107,10 @@ std::vector<RunPlace> run_places(const check::LocatedFinding& located, dialect::
   std::vector<RunPlace> places;
   if (located.last_line)
     places.push_back({.file = {}, .line = *located.last_line + 1, .note = std::string(kLasts.in(language))});
+  if (located.worst_line) {
+    const dialect::Text& note = located.finding.id == "near-miss"_diag ? kNearest : kDeepest;
+    places.push_back({.file = {}, .line = *located.worst_line + 1, .note = std::string(note.in(language))});
+  }
   if (located.shaped_by) {
     const dialect::Text& note = located.finding.id == "cuts-with-spindle-stopped"_diag ? kStopped : kCutLast;
     places.push_back({.file = {}, .line = *located.shaped_by + 1, .note = std::string(note.in(language))});

@@ -66,6 +66,7 @@ void JoinedRuns::add(RunOutcome outcome) {
       RunFinding& earlier = joined_.findings[known->second];
       if (is_worse(each.finding, earlier.finding)) {
         earlier.finding = each.finding;
+        earlier.worst_line = each.worst_line;
         earlier.shaped_by = each.shaped_by;
       }
       continue;

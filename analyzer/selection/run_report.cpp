@@ -39,6 +39,7 @@ Report with_run(Report found, const simulation::RunOutcome& run) {
                               .mistake = each.mistake < 0 ? -1 : mistakes + each.mistake,
                               .is_of_run = true,
                               .last_line = each.last_line,
+                              .worst_line = each.worst_line,
                               .shaped_by = each.shaped_by});
   }
   std::inplace_merge(found.findings.begin(), found.findings.begin() + middle, found.findings.end(), by_place);

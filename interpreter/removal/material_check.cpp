@@ -508,13 +508,21 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   // Dexels do not measure along a tool that lies: there, how far it goes does.
   const SweepPath& path = sweeps_[sweep].path;
   const Vec3 axis = axis_of(path);
-  const double deep = is_lying(axis) ? -lowest_along(path, axis) : outcome.depth;
+  const bool lies = is_lying(axis);
+  const double deep = lies ? -lowest_along(path, axis) : outcome.depth;
+  if (lies && !episode.lying_start) episode.lying_start = deep;
+  take_depth(incident.levels, {.line = stretch.line,
+                               .depth = lies ? std::max(0.0, deep - *episode.lying_start) : deep,
+                               .frame = frames_[stretch.frame],
+                               .is_in_inches = stretch.is_in_inches});
   if (goes_on && !(deep > episode.deepest)) return;
   episode.deepest = deep;
   incident.amount = outcome.depth;
   incident.point = in_machine(outcome.point);
   incident.frame = frames_[stretch.frame];
   incident.is_in_inches = stretch.is_in_inches;
+  incident.worst_line = stretch.line;
+  incident.worst_time = stretch.stretch.time_at(use.from);
   episode.deepest_sweep = sweep;
 }
 

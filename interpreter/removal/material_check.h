@@ -137,6 +137,7 @@ class MaterialCheck {
     bool begins_in_feed = false;
     double last_way = 0;                       ///< Of the tip up to where it was met last, mm.
     double deepest = 0;                        ///< Of the sweeps that have been compared, mm.
+    std::optional<double> lying_start;         ///< Where a tool that lies was first, along its axis; mm.
     std::optional<std::size_t> first_sweep;    ///< Of the present batch, where it begins there.
     std::optional<std::size_t> deepest_sweep;  ///< Of the present batch, where it is worst there.
     std::optional<stock::Stock> before;        ///< As the line has found it on which the incident began.

@@ -27,11 +27,11 @@ struct RunDecision {
 struct RunFinding {
   std::size_t line = 0;  ///< From 0.
   syntax::Finding finding;
-  std::int32_t mistake = -1;             ///< Findings with the same number have the same cause (D66); -1: alone.
-  std::optional<std::size_t> last_line;  ///< Where it ends, if below `line`; from 0.
-  std::optional<std::size_t>
-      shaped_by;           ///< The line that has cut last what is hit, or has stopped the spindle; from 0.
-  std::int32_t path = -1;  ///< An index into RunOutcome::paths; -1: the path of the first run has it.
+  std::int32_t mistake = -1;              ///< Findings with the same number have the same cause (D66); -1: alone.
+  std::optional<std::size_t> last_line;   ///< Where it ends, if below `line`; from 0.
+  std::optional<std::size_t> worst_line;  ///< Of a contact: where it is deepest or nearest, if elsewhere; from 0.
+  std::optional<std::size_t> shaped_by;   ///< What cut last what is hit, or stopped the spindle; from 0.
+  std::int32_t path = -1;                 ///< An index into RunOutcome::paths; -1: the path of the first run has it.
 
   friend bool operator==(const RunFinding&, const RunFinding&) = default;
 };

@@ -11,6 +11,7 @@
 #include "interpreter/dialect/given_name.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/geometry/frame.h"
+#include "interpreter/removal/depth_levels.h"
 #include "interpreter/verification/body_pairs.h"
 #include "interpreter/verification/scene.h"
 
@@ -21,19 +22,22 @@ namespace isocnc::verification {
 struct Contact {
   /// E152, E153, E155, or W154 for a near miss; of the material E150, E151, W154, W156 to E158, W161.
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
-  std::size_t line = 0;      ///< Of the first touch; of a near miss, of the nearest place; from 0.
-  std::size_t end_line = 0;  ///< Of the last touch.
-  double time = 0;           ///< Of the first touch, or of the nearest place; seconds since the start of the run.
-  double end_time = 0;       ///< Of the last touch, seconds.
-  execution::ToolCode tool;  ///< All 0: none is mounted.
-  dialect::GivenName who;    ///< The moving body that is nearest, or deepest.
-  dialect::GivenName whom;   ///< The obstacle.
-  double distance = 0;       ///< Smallest distance, mm; negative: the largest depth.
+  std::size_t line = 0;        ///< Of the first touch; of a near miss, of the nearest place; from 0.
+  std::size_t end_line = 0;    ///< Of the last touch.
+  double time = 0;             ///< Of the first touch, or of the nearest place; seconds since the start of the run.
+  double end_time = 0;         ///< Of the last touch, seconds.
+  execution::ToolCode tool;    ///< All 0: none is mounted.
+  dialect::GivenName who;      ///< The moving body that is nearest, or deepest.
+  dialect::GivenName whom;     ///< The obstacle.
+  double distance = 0;         ///< Smallest distance, mm; negative: the largest depth.
+  std::size_t worst_line = 0;  ///< Of that place; from 0.
+  double worst_time = 0;       ///< When it is reached, or of the material, when the motion begins; seconds.
   /// Of the obstacle, at that place; mm, machine frame of the program: on a table that turns it turns with the
   /// workpiece.
   geometry::Vec3 point = geometry::Vec3::Zero();
-  geometry::Frame frame;      ///< In force at `line`; in the machine frame.
+  geometry::Frame frame;      ///< In force at `line`, or of the material, at `worst_line`; in the machine frame.
   bool is_in_inches = false;  ///< G70 is in force there: it is told in inches.
+  std::vector<removal::DepthLevel> levels;  ///< Lines at which it is told, so that none is accepted unseen; not empty.
   Mover mover = kSpindle;
   std::int32_t mistake = -1;  ///< Equal for contacts of the same mover, with the same tool, with the same obstacle.
   BodyDescription described;  ///< Where the obstacle is described.
@@ -82,6 +86,9 @@ struct Certificate {
   bool is_window_empty = false;         ///< Nothing of the blank is in it.
   std::string scene;                    ///< The file that describes the setup, or the machine; as shown to users.
   bool has_setup = true;                ///< Whether a setup is for the program.
+  bool is_setup_empty = false;          ///< It describes no body.
+  bool has_nose = true;                 ///< Whether the spindle nose is described.
+  std::vector<std::string> bare_tools;  ///< Tools with a shape and without a holder, as `T101001`.
   std::vector<Unverified> gaps;
   /// Bodies of the machine that are not compared, since they touch each other from the start: `gantry` and `rails`.
   std::vector<std::pair<std::string, std::string>> touching;

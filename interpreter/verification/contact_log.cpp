@@ -84,12 +84,16 @@ void ContactLog::settle(std::span<const Visit> visits) {
   episode.last_stretch = at_.number;
 }
 
+/// Where one stretch ends and the next begins, the distance is the same but for rounding, mm.
+static constexpr double kSame = 1e-5;
+
 void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
   // How near it came before the touch does not matter.
   const bool is_first = !episode.is_open || !episode.has_touched;
   const bool is_rough = touch.visit->is_rough;
   const bool is_deeper =
-      is_first || (is_rough == episode.is_rough ? touch.touch->distance < episode.contact.distance : episode.is_rough);
+      is_first ||
+      (is_rough == episode.is_rough ? touch.touch->distance < episode.contact.distance - kSame : episode.is_rough);
   Contact& contact = episode.contact;
   if (is_first) {
     contact = touch.visit->contact;
@@ -103,27 +107,32 @@ void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
     contact.end_time = touch.touch->last;
   }
   episode.is_open = episode.has_touched = true;
+  take_depth(contact.levels, {.line = at_.line,
+                              .depth = is_rough ? 0 : std::max(0.0, -touch.touch->distance),
+                              .frame = at_.frame,
+                              .is_in_inches = at_.is_in_inches});
   if (!is_deeper) return;
   episode.is_rough = is_rough;
   contact.who = touch.visit->contact.who;
   contact.distance = touch.touch->distance;
+  contact.worst_line = at_.line;
+  contact.worst_time = touch.touch->deepest_time;
   contact.point = touch.touch->point;
 }
 
 void ContactLog::take_near(Episode& episode, const Visit& visit) const {
   const Encounter& encounter = visit.encounter;
-  // Where one stretch ends and the next begins, the distance is the same but for rounding.
-  constexpr double kSame = 1e-5;  // mm
   if (episode.is_open && !(encounter.distance < episode.contact.distance - kSame)) return;
   episode.is_open = true;
   Contact& contact = episode.contact;
   contact = visit.contact;
-  contact.line = contact.end_line = at_.line;
-  contact.time = contact.end_time = encounter.nearest_time;
+  contact.line = contact.end_line = contact.worst_line = at_.line;
+  contact.time = contact.end_time = contact.worst_time = encounter.nearest_time;
   contact.distance = encounter.distance;
   contact.point = encounter.point;
   contact.frame = at_.frame;
   contact.is_in_inches = at_.is_in_inches;
+  contact.levels = {{.line = at_.line, .frame = at_.frame, .is_in_inches = at_.is_in_inches}};
 }
 
 void ContactLog::close(Episode& episode) {

@@ -510,6 +510,7 @@ class Examination {
     touch.to_end = !span.is_over;
     if (const double nearest = span.deepest.upper - pair.slack; nearest < touch.distance) {
       touch.distance = nearest;
+      touch.deepest_time = places.time_at(span.deepest_s);
       touch.point = places.on_workpiece(span.deepest_s, span.deepest.on_obstacle + obstacle.shift, obstacle.on);
     }
     take_nearest(places, pair, span.deepest_s, span.deepest, encounter);

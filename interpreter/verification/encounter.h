@@ -16,6 +16,7 @@ struct Touch {
   bool from_start = false;  ///< Whether both are together from the start of the stretch on.
   bool to_end = false;      ///< Whether both are still together at the end of the stretch.
   double distance = 0;      ///< Smallest distance that was found, mm; negative: how deep they overlap.
+  double deepest_time = 0;  ///< When it was found; seconds since the start of the run.
   geometry::Vec3 point = geometry::Vec3::Zero();  ///< Of the obstacle, there; mm, as in Contact.
 };
 

@@ -134,6 +134,11 @@ Contact contact_of(const removal::Incident& incident, const Scene& scene) {
   contact.point = incident.point;
   contact.frame = incident.frame;
   contact.is_in_inches = incident.is_in_inches;
+  contact.levels = incident.levels;
+  if (contact.levels.empty())
+    contact.levels.push_back({.line = incident.line, .frame = incident.frame, .is_in_inches = incident.is_in_inches});
+  contact.worst_line = incident.levels.empty() ? incident.line : incident.worst_line;
+  contact.worst_time = incident.levels.empty() ? incident.time : std::max(incident.time, incident.worst_time);
   contact.is_of_material = true;
   contact.is_of_edge = incident.kind == IncidentKind::EdgeTooShort;
   contact.limit = incident.limit;

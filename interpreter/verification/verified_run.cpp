@@ -50,7 +50,7 @@ static syntax::Finding finding_about_material(const Contact& contact) {
   const double amount = lengths.of(std::max(0.0, -contact.distance));
   syntax::Finding finding{.id = contact.id,
                           .is_in_inches = contact.is_in_inches,
-                          .values = {amount, point.x(), point.y(), point.z(), rounded(contact.time, 0.1)},
+                          .values = {amount, point.x(), point.y(), point.z(), rounded(contact.worst_time, 0.1)},
                           .names = {contact.who, contact.whom}};
   if (contact.id == "cuts-nothing"_diag) finding.values[0] = contact.is_in_inches ? amount : std::round(amount);
   if (contact.id == "cut-too-deep"_diag) finding.values[5] = lengths.of(contact.limit);
@@ -76,7 +76,7 @@ syntax::Finding finding_of(const Contact& contact) {
   return {
       .id = contact.id,
       .is_in_inches = contact.is_in_inches,
-      .values = {amount, point.x(), point.y(), point.z(), rounded(contact.time, 0.1)},
+      .values = {amount, point.x(), point.y(), point.z(), rounded(contact.worst_time, 0.1)},
       .names = {contact.who, contact.whom},
       .described = contact.described.file.empty() ? dialect::GivenPlace() : dialect::GivenPlace::of(contact.described)};
 }
@@ -109,25 +109,50 @@ syntax::Finding finding_of(const Unverified& gap) {
           .names = {gap.name}};
 }
 
-/// The contacts as findings show them. Of one mistake the first stands for all, and shows the deepest place of all.
-static std::vector<Contact> shown_contacts(const std::vector<Contact>& contacts) {
-  std::vector<Contact> shown = contacts;
-  std::map<std::int32_t, Contact*> firsts;
-  for (Contact& contact : shown) {
-    Contact& first = *firsts.try_emplace(contact.mistake, &contact).first->second;
-    if (!(contact.distance < first.distance)) continue;
-    // In the frame of the line where the finding stands.
-    first.enough.reset();
-    if (contact.enough) {
-      const geometry::Vec3 place = contact.frame.to_inner(contact.point);
-      first.enough = first.frame.to_inner(contact.frame.to_outer({place.x(), place.y(), *contact.enough})).z();
-    }
-    first.who = contact.who;
-    first.shaped_by = contact.shaped_by;
-    first.distance = contact.distance;
-    first.point = contact.point;
+namespace {
+
+/// A line on which a contact is told, with the contact that is told there.
+struct ToldContact {
+  const removal::DepthLevel* level = nullptr;
+  const Contact* contact = nullptr;
+  const Contact* worst = nullptr;  ///< The deepest or nearest one of the same mistake from this line on.
+};
+
+}  // namespace
+
+/// Where findings about contacts stand, by line. Of one mistake the first one that is shown stands for all, so that
+/// each tells the worst of those from it on.
+static std::vector<ToldContact> told_contacts(const std::vector<Contact>& contacts) {
+  std::vector<ToldContact> told;
+  for (const Contact& contact : contacts)
+    for (const removal::DepthLevel& level : contact.levels)
+      told.push_back({.level = &level, .contact = &contact, .worst = &contact});
+  std::stable_sort(told.begin(), told.end(),
+                   [](const ToldContact& a, const ToldContact& b) { return a.level->line < b.level->line; });
+  std::map<std::int32_t, const Contact*> worst;
+  for (auto each = told.rbegin(); each != told.rend(); ++each) {
+    const Contact*& known = worst.try_emplace(each->contact->mistake, each->contact).first->second;
+    if (!(known->distance < each->contact->distance)) known = each->contact;
+    each->worst = known;
   }
-  return shown;
+  return told;
+}
+
+/// The finding about a contact on a line, without a span.
+static RunFinding finding_on(const ToldContact& told) {
+  const removal::DepthLevel& level = *told.level;
+  Contact shown = *told.worst;
+  if (shown.enough) {
+    const geometry::Vec3 place = shown.frame.to_inner(shown.point);
+    shown.enough = level.frame.to_inner(shown.frame.to_outer({place.x(), place.y(), *shown.enough})).z();
+  }
+  shown.frame = level.frame;
+  shown.is_in_inches = level.is_in_inches;
+  RunFinding found{.line = level.line, .finding = finding_of(shown), .mistake = told.contact->mistake};
+  if (told.contact->end_line > level.line) found.last_line = told.contact->end_line;
+  if (shown.worst_line != level.line) found.worst_line = shown.worst_line;
+  if (shown.shaped_by != level.line) found.shaped_by = shown.shaped_by;
+  return found;
 }
 
 /// Adds what a scene has shown to the findings of a run, in their order.
@@ -136,12 +161,10 @@ static void add_findings(simulation::RunOutcome& outcome, const std::vector<Cont
   std::vector<RunFinding> found;
   std::int32_t mistakes = 0;
   for (const RunFinding& each : outcome.findings) mistakes = std::max(mistakes, each.mistake + 1);
-  for (const Contact& contact : shown_contacts(contacts))
-    found.push_back({.line = contact.line,
-                     .finding = finding_of(contact),
-                     .mistake = mistakes + contact.mistake,
-                     .last_line = contact.end_line > contact.line ? std::optional(contact.end_line) : std::nullopt,
-                     .shaped_by = contact.shaped_by == contact.line ? std::nullopt : contact.shaped_by});
+  for (const ToldContact& told : told_contacts(contacts)) {
+    found.push_back(finding_on(told));
+    found.back().mistake += mistakes;
+  }
   for (const Unverified& gap : certificate.gaps) found.push_back({.line = gap.line, .finding = finding_of(gap)});
   const auto by_line = [](const RunFinding& a, const RunFinding& b) { return a.line < b.line; };
   std::stable_sort(found.begin(), found.end(), by_line);

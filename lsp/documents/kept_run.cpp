@@ -62,6 +62,7 @@ void KeptRun::replace_lines(std::size_t first, std::size_t removed, std::size_t 
   for (RunFinding& each : outcome_.findings) {
     each.line = moved(each.line);
     each.last_line = moved_if_kept(each.last_line);
+    each.worst_line = moved_if_kept(each.worst_line);
     each.shaped_by = moved_if_kept(each.shaped_by);
   }
   std::erase_if(outcome_.removed, [&](const simulation::RemovedOnLine& each) { return is_replaced(each.line); });

@@ -97,8 +97,8 @@ class DiagnosticWriter {
   }
 
   static bool has_related(const LocatedFinding& located) {
-    return located.path >= 0 || located.repetitions >= 0 || located.last_line || located.shaped_by ||
-           located.finding.described;
+    return located.path >= 0 || located.repetitions >= 0 || located.last_line || located.worst_line ||
+           located.shaped_by || located.finding.described;
   }
 
   std::string message_of(const LocatedFinding& located) const {

@@ -26,9 +26,9 @@ using testing::StartsWith;
 constexpr std::string_view kShop = R"({
   "machine": {
     "kinematics": {"type": "three-axis"},
-    "home": {"z": 300},
+    "home": {"z": 300}, "nose": [[80, 100, 100]], "holders": {"H": [[20, 40, 40]]},
     "tools": [
-      {"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 10, "shape": "flat"},
+      {"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 10, "shape": "flat", "body": "H"},
       {"head": 1, "holder": 1, "tool": 2, "length": 80},
       {"head": 1, "holder": 1, "tool": 3, "name": "new"}]
   },
@@ -155,6 +155,8 @@ TEST_F(Surroundings, CommentsAboutThemWithoutEffectAreReported) {
   const std::string useless = "M06 T101001\nG00 X0 Y0 Z40\nG01 X120 F1000 ;isolint: ignore E152\nG00 Z50\nM02\n";
   EXPECT_THAT(found(ignored), IsEmpty());
   EXPECT_THAT(found(ignored, {}), IsEmpty());
+  const std::string crash = "M06 T101001\nG00 X0 Y0 Z29.7\nG01 X120 F1000 ;isolint: ignore E152\nZ10\nG00 Z50\nM02\n";
+  EXPECT_THAT(found(crash), ElementsAre("E152@4"));
   EXPECT_THAT(found(useless), ElementsAre("W190@3"));
   EXPECT_THAT(found(useless, {}), IsEmpty()) << "the machine was not asked";
   EXPECT_THAT(found("(isolint: ignore-file E153)\n" + useless), ElementsAre("W190@1", "W190@4"));
@@ -222,7 +224,7 @@ TEST_F(Surroundings, AreInThePage) {
   const json facts = json::parse(page.substr(begin, page.find("</script>", begin) - begin));
   EXPECT_EQ(facts.at("scene").at("bodies").at(0).at("name"), "clamp 1");
   EXPECT_EQ(facts.at("scene").at("bodies").at(0).at("role"), "fixture");
-  EXPECT_EQ(facts.at("scene").at("tools").at("T101001").at("cutter"), json::parse("[[0, 10], [100, 10]]"));
+  EXPECT_EQ(facts.at("scene").at("tools").at("T101001").at("cutter"), json::parse("[[0, 10], [80, 10]]"));
   EXPECT_EQ(facts.at("contacts").at(0).at("line"), 3);
   EXPECT_THAT(facts.at("certificate").at("en").get<std::string>(), HasSubstr("verified: 4 motions, 1 contact"));
   EXPECT_THAT(facts.at("certificate").at("it").get<std::string>(), HasSubstr("verificato: 4 movimenti, 1 contatto"));

@@ -179,6 +179,19 @@ TEST(Material, HolderInIt) {
   EXPECT_EQ(told(Bench().cut("G00 X272 Y150 Z50\nG01 Z-25 F1000\nG00 Z50\n")), Lines());
 }
 
+/// Whoever accepts that the holder rubs has not accepted that it is driven in.
+TEST(Material, AHolderThatGoesMuchDeeperIsToldThereAsWell) {
+  Bench bench;
+  bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::flat_body(10, 20));
+  const solids::StackRow holder{.height = 80, .lower_diameter = 50, .upper_diameter = 50};
+  bench.scene.tools[Shop::kTool].holder = Shop::body(solids::stacked_body({&holder, 1}, 20));
+  const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\nG01 Z19.8 F1000\nX352 Z19.7\nX354 Z10\nX356\nG00 Z50\n");
+  std::vector<std::size_t> lines;
+  for (const simulation::RunFinding& each : run.outcome.findings)
+    if (dialect::definition(each.finding.id).code == "E151") lines.push_back(each.line + 1);
+  EXPECT_EQ(lines, (std::vector<std::size_t>{4, 6}));
+}
+
 TEST(Material, HolderOverWhatIsCutAway) {
   // The same depth, where the block has been lowered before.
   EXPECT_EQ(told(Bench().cut(

@@ -123,6 +123,41 @@ TEST(ContactReports, RepeatedContactsShowTheDeepest) {
   EXPECT_NEAR(run.outcome.findings[1].finding.values[0], 20, 0.011);
 }
 
+/// Line from 1, depth, and the line from 1 where it is deepest.
+std::vector<std::string> findings_of(const VerifiedRun& run) {
+  std::vector<std::string> all;
+  for (const simulation::RunFinding& each : run.outcome.findings)
+    all.push_back(
+        fmt::format("{}: {} at {}", each.line + 1, each.finding.values[0], each.worst_line.value_or(each.line) + 1));
+  return all;
+}
+
+/// Whoever accepts the first touch has not accepted what follows.
+TEST(ContactReports, AContactThatGetsMuchDeeperIsToldThereAsWell) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("board", {90, -70, 0}, {300, 70, 50});
+  const std::string start = "M06 T101001\nG00 X0 Y0 Z49.7\nG01 X120 F3000\nX130 Z49.5\n";
+  const VerifiedRun run = shop.run(start + "Z40\nX140\nZ38\nG00 Z100\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  EXPECT_EQ(findings_of(run), (std::vector<std::string>{"3: 11.98 at 7", "5: 11.98 at 7"}));
+  EXPECT_EQ(run.outcome.findings[0].mistake, run.outcome.findings[1].mistake);
+  EXPECT_EQ(run.outcome.findings[1].last_line, 7u);
+  // A score that stays one is told once.
+  EXPECT_EQ(findings_of(shop.run(start + "X140\nZ49.65\nG00 Z100\nM02\n")), std::vector<std::string>{"3: 0.5 at 5"});
+}
+
+/// Time, line and depth are those of one place, also where it is in a later contact.
+TEST(ContactReports, TheFirstLineOfAMistakeTellsItsDeepestPlace) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("clamp", {-40, -40, -50}, {40, 40, 20});
+  const VerifiedRun run = shop.run(
+      "M06 T101001\nG00 X-100 Y0 Z50\nG01 Z19 F1000\nX100\nG00 Z50\nX-100\nG01 Z-20 F1000\nX100\nG00 Z50\nM02\n");
+  EXPECT_EQ(findings_of(run), (std::vector<std::string>{"4: 40 at 8", "8: 40 at 8"}));
+  EXPECT_NEAR(run.outcome.findings[0].finding.values[4], run.contacts[1].worst_time, 0.051);
+}
+
 /// Line from 1, and the line where the contact ends.
 std::vector<std::pair<std::size_t, std::size_t>> lines_of(const VerifiedRun& run) {
   std::vector<std::pair<std::size_t, std::size_t>> lines;
