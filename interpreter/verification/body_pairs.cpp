@@ -121,12 +121,17 @@ class PairsMaker {
 
   /// Whether motions bring both nearer together, and they are not made to touch: what carries the nose touches it,
   /// links that carry one another touch as well, and so do bodies that touch from the start. What turns in a cradle
-  /// comes around to what stands on it.
+  /// comes around to what stands on it, and what a head turns to the carriage and the gantry.
   bool may_meet(const MovingPart& part, const Obstacle& obstacle) const {
     const bool is_own = carries_spindle(obstacle.on);
     if (part.revolved) return !(is_own && part.of_spindle == ToolPart::Nose);
+    const bool turns = part.on == Link::B || part.on == Link::C;
     const bool turns_in_cradle = part.on == Link::C && obstacle.on == Link::B;
-    if (carries_spindle(part.on) ? is_own : obstacle.on != Link::Machine && !turns_in_cradle) return false;
+    const bool turns_past = turns && (obstacle.on == Link::X || obstacle.on == Link::Y);
+    const bool is_head = kinematics_.kind == MachineKind::Head;
+    if (carries_spindle(part.on) ? is_own && !(is_head && turns_past)
+                                 : obstacle.on != Link::Machine && !turns_in_cradle)
+      return false;
     return !are_among(scene_.at_home.touching, part, obstacle);
   }
 

@@ -77,6 +77,12 @@ static std::vector<std::string> not_verified(const Certificate& certificate, Lan
     gaps.push_back(dialect::format(Text{"what follows from line {} on, which was not run",
                                         "ciò che segue dalla linea {}, che non è stato eseguito"},
                                    language, *certificate.ended_before + 1));
+  for (const std::string& tool : certificate.bare_tools)
+    gaps.push_back(dialect::format(Text{"{} has no holder", "{} non ha portautensile"}, language, tool));
+  if (!certificate.has_nose)
+    gaps.emplace_back(Text{"the spindle nose is not described", "il naso del mandrino non è descritto"}.in(language));
+  if (certificate.is_setup_empty)
+    gaps.emplace_back(Text{"the setup describes no body", "l'attrezzaggio non descrive alcun corpo"}.in(language));
   return gaps;
 }
 

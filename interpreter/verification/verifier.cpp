@@ -31,6 +31,8 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
   certificate_.epsilon = kContactDistance / 2;
   certificate_.scene = scene.name;
   certificate_.has_setup = scene.has_setup;
+  certificate_.is_setup_empty = scene.has_setup && scene.setup.empty();
+  certificate_.has_nose = scene.nose.has_value();
   for (const MachineBodies& each : scene.at_home.touching)
     certificate_.touching.emplace_back(scene.machine[each.moving].name, scene.machine[each.other].name);
   std::optional<removal::Workpiece> workpiece = workpiece_of(scene, origin, material);
@@ -90,7 +92,11 @@ void Verifier::mount(const execution::ToolCode& tool, const running::Event& even
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;
   const bool is_empty = mounted.name.empty();  // After T000000 nothing of a tool is there.
-  if (is_empty || (has_length && has_shape) || !known_gaps_.insert(tool).second) return;
+  if (is_empty || (has_length && has_shape && mounted.bodies->holder) || !known_gaps_.insert(tool).second) return;
+  if (has_length && has_shape) {
+    certificate_.bare_tools.push_back(mounted.name);
+    return;
+  }
   certificate_.gaps.push_back({.gap = has_length ? Gap::ToolWithoutShape : Gap::ToolWithoutLength,
                                .line = event.line,
                                .name = dialect::GivenName::of({mounted.name, mounted.name})});

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -156,6 +157,35 @@ TEST(ContactReports, TheFirstLineOfAMistakeTellsItsDeepestPlace) {
       "M06 T101001\nG00 X-100 Y0 Z50\nG01 Z19 F1000\nX100\nG00 Z50\nX-100\nG01 Z-20 F1000\nX100\nG00 Z50\nM02\n");
   EXPECT_EQ(findings_of(run), (std::vector<std::string>{"4: 40 at 8", "8: 40 at 8"}));
   EXPECT_NEAR(run.outcome.findings[0].finding.values[4], run.contacts[1].worst_time, 0.051);
+}
+
+/// What a head turns passes the gantry, which the ram below it cannot meet.
+TEST(ContactReports, WhatAHeadTurnsIsComparedWithTheGantry) {
+  Shop shop(MachineKind::Head);
+  shop.scene.clearance = 0;
+  // A motor that stands out to the side of the head by 300 mm; half a turn of C brings it into the post of the gantry.
+  add_machine_body(shop, "motor", Link::C, {150, -50, 200}, {300, 50, 300});
+  add_machine_body(shop, "post", Link::X, {-320, -50, 350}, {-250, 50, 550});
+  const std::string start = "M06 T101001\nG00 X0 Y0 Z100 B0 C0\n";
+  EXPECT_TRUE(shop.run(start + "C90\nM02\n").contacts.empty());
+  const VerifiedRun run = shop.run(start + "C180\nM02\n");
+  ASSERT_EQ(summaries(run), std::vector<std::string>{"E153 3 motor | post"});
+  EXPECT_NEAR(run.contacts[0].distance, 250 - std::hypot(300, 50), 0.02);
+}
+
+TEST(ContactReports, TheCertificateNamesWhatIsNotDescribed) {
+  Shop shop;
+  const auto not_verified = [&] {
+    return to_json(shop.run("M06 T101001\nG00 X0\nM06 T101001\nM02\n"), Language::English)["certificate"]
+        .at("notVerified")
+        .dump();
+  };
+  EXPECT_EQ(not_verified(), R"(["the setup describes no body"])");
+  shop.box("clamp", {300, 300, 0}, {310, 310, 20});
+  EXPECT_EQ(not_verified(), "[]");
+  shop.scene.nose.reset();
+  shop.scene.tools[Shop::kTool].holder.reset();
+  EXPECT_EQ(not_verified(), R"(["T101001 has no holder","the spindle nose is not described"])");
 }
 
 /// Line from 1, and the line where the contact ends.
