@@ -159,8 +159,12 @@ class BlockPass {
     };
     log.take(found, place_of, bodies, tool_);
     log.close_all();
-    for (const Contact& contact : log.contacts())
-      if (contact.line != kBefore) passed_.contacts.push_back(contact);
+    for (const Contact& contact : log.contacts()) {
+      if (contact.line != kBefore)
+        passed_.contacts.push_back(contact);
+      else if (contact.worst_line != kBefore)
+        passed_.deeper.push_back({.contact = contact, .depth_before = contact.levels.front().depth});
+    }
   }
 
   const Surroundings& surroundings_;
@@ -203,6 +207,7 @@ Surroundings::PassedBlock Surroundings::pass_block(Simulation& simulation, const
   if (!was_in_block) return passed;
   const auto is_past = [time](const auto& each) { return !(each.time > time); };
   std::erase_if(passed.contacts, is_past);
+  std::erase_if(passed.deeper, [time](const auto& each) { return !(each.contact.worst_time > time); });
   std::erase_if(passed.crossings, is_past);
   return passed;
 }

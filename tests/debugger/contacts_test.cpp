@@ -311,6 +311,16 @@ TEST_F(Surroundings, MayBeAConditionOfContacts) {
   EXPECT_EQ(moments.on, moments.back);
 }
 
+/// A contact that goes on from the block before stops the run where it is deepest: here where line 9 ends.
+TEST_F(Surroundings, MayBeAConditionOfContactsThatGoOn) {
+  launch(kProgram);
+  turn_on(client, "DEPTH > 8 && DEPTH < 12");
+  const Moments moments = moments_of(client, 11);
+  ASSERT_EQ(moments.on.size(), 1u);
+  EXPECT_EQ(moments.on[0].line, 10);
+  EXPECT_EQ(moments.on, moments.back);
+}
+
 TEST_F(Surroundings, CountInConditionsAndMessages) {
   launch(kProgram);
   client.set_breakpoints({{{"line", 4}, {"logMessage", "{CLEARANCE,1} mm"}},
