@@ -141,6 +141,7 @@ if(CMAKE_CROSSCOMPILING)
   # dpkg-shlibdeps would name the libraries of the cross compiler. The programs are linked statically but for this one.
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6 (>= 2.36)")
 else()
-  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+  list(TRANSFORM programs PREPEND ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/ OUTPUT_VARIABLE CPACK_ISOCNC_PROGRAMS)
+  set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/debian_depends.cmake)
 endif()
 include(CPack)
