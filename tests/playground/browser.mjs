@@ -6,6 +6,7 @@ import { createRequire } from 'node:module';
 import { extname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { deflateSync } from 'node:zlib';
+import { launchOptions } from '../chromium.mjs';
 
 export const root = fileURLToPath(new URL('../../', import.meta.url));
 const { chromium } = createRequire(join(root, 'toolpath-view/package.json'))('playwright-core');
@@ -25,13 +26,7 @@ export function printed(program, args, input) {
 export const findingsOf = (text, language = 'en') =>
   JSON.parse(printed('isolint', ['--no-config', '--format', 'json', '--lang', language, '-'], text));
 
-export const launch = () =>
-  chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-      '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing', '--disable-dev-shm-usage'],
-    timeout: patience,
-  });
+export const launch = () => chromium.launch({ ...launchOptions, timeout: patience });
 
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
 

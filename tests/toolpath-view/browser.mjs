@@ -2,11 +2,11 @@
 import { existsSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { chromium, launchOptions } from '../chromium.mjs';
 import { requireFromView, root, run, skip, write } from './run.mjs';
 
 /** Ends the test as skipped where there is no browser, or no page to open. */
 export async function openBrowser() {
-  const chromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
   if (!existsSync(chromium)) skip(`there is no ${chromium}`);
   if (!existsSync(join(root, 'toolpath-view/node_modules/playwright-core')))
     skip('there is no playwright-core: npm ci --prefix toolpath-view');
@@ -14,20 +14,7 @@ export async function openBrowser() {
     skip('this isorun has no --plot FILE.html');
 
   const { chromium: driver } = requireFromView('playwright-core');
-  const browser = await driver.launch({
-    executablePath: chromium,
-    args: [
-      '--no-sandbox',
-      '--no-first-run',
-      '--disable-background-networking',
-      '--disable-component-update',
-      '--disable-sync',
-      '--use-gl=angle',
-      '--use-angle=swiftshader',
-      '--enable-unsafe-swiftshader',
-      '--disable-gpu-compositing', // Drawing the page itself that way takes a fifth of a test's time.
-    ],
-  });
+  const browser = await driver.launch(launchOptions);
   const problems = [];
   const requests = [];
 

@@ -8,6 +8,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { fileURLToPath } from 'node:url';
+import { launchOptions } from '../chromium.mjs';
 
 export const root = fileURLToPath(new URL('../../', import.meta.url));
 const { chromium } = createRequire(join(root, 'vscode-extension/package.json'))('playwright-core');
@@ -100,12 +101,7 @@ export class Editor {
 
   /** Opens a page in the browser. */
   async browse() {
-    this.#browser = await chromium.launch({
-      timeout: patience,
-      executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-      args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-        '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing', '--disable-dev-shm-usage'],
-    });
+    this.#browser = await chromium.launch({ ...launchOptions, timeout: patience });
     const context = await this.#browser.newContext({ viewport: { width: 1440, height: 900 } });
     context.setDefaultTimeout(patience);
     this.page = await context.newPage();

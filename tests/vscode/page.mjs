@@ -5,9 +5,9 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'no
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { chromium, launchOptions } from '../chromium.mjs';
 import { extension, requireFromExtension, root } from './modules.mjs';
 
-const chromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const isorun = join(process.env.ISOCNC_BIN_DIR ?? join(root, 'build/release/bin'), 'isorun');
 /** Long enough for a busy machine. */
 const patience = 120_000;
@@ -62,12 +62,7 @@ export const wholePath = (resultId, { facts, steps, points, turns, cuts }, langu
 
 /** The page, and a browser to be closed. */
 export async function openPage() {
-  const browser = await requireFromExtension('playwright-core').chromium.launch({
-    executablePath: chromium,
-    args: ['--no-sandbox', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-      '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing', '--disable-dev-shm-usage'],
-    timeout: patience,
-  });
+  const browser = await requireFromExtension('playwright-core').chromium.launch({ ...launchOptions, timeout: patience });
   try {
     const page = await browser.newPage({ viewport: { width: 700, height: 800 } });
     page.setDefaultTimeout(patience);
