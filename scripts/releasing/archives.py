@@ -1,4 +1,4 @@
-"""Archives whose bytes depend on nothing but the files in them: sorted, all of one time and one owner."""
+"""Archives whose bytes depend on nothing but the files in them and how hard they are compressed: sorted, all of one time and one owner."""
 
 import gzip
 import io
@@ -52,8 +52,8 @@ def below(folder: str, files: Files) -> Files:
     return {f"{folder}/{name}": file for name, file in files.items()}
 
 
-def write_tar_gz(path: Path, files: Files, seconds: int) -> None:
-    """`seconds` since 1970 is the time of each member."""
+def write_tar_gz(path: Path, files: Files, seconds: int, level: int) -> None:
+    """`seconds` since 1970 is the time of each member, and `level` that of compression, from 1 to 9."""
     tar = io.BytesIO()
     with tarfile.open(fileobj=tar, mode="w", format=tarfile.USTAR_FORMAT) as archive:
         for name, file in sorted(files.items()):
@@ -63,14 +63,14 @@ def write_tar_gz(path: Path, files: Files, seconds: int) -> None:
             member.mtime = seconds
             member.uname = member.gname = "root"
             archive.addfile(member, io.BytesIO(file.data))
-    path.write_bytes(gzip.compress(tar.getvalue(), mtime=0))
+    path.write_bytes(gzip.compress(tar.getvalue(), level, mtime=0))
 
 
-def write_zip(path: Path, files: Files, seconds: int) -> None:
+def write_zip(path: Path, files: Files, seconds: int, level: int) -> None:
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, file in sorted(files.items()):
             member = zipfile.ZipInfo(name, time.gmtime(seconds)[:6])
             member.create_system = 3  # The mode is one of POSIX, whatever system writes.
             member.external_attr = (0o100000 | file.mode) << 16
             member.compress_type = zipfile.ZIP_DEFLATED
-            archive.writestr(member, file.data, compresslevel=9)
+            archive.writestr(member, file.data, compresslevel=level)
