@@ -177,29 +177,30 @@ void Verifier::finish_material() {
   certificate_.more_contacts += material_->left_out();
 }
 
-/// Whether a program may have a G92; a glance that saves a run of those that have none. It misses none: blanks and
-/// comments mean nothing within a number, and a comment that is not closed takes the rest of its line.
-static bool may_set_origin(std::string_view text) {
-  char last = 0;  // G, or the 9 after it: what of a G92 ends here.
-  bool is_in_comment = false;
-  for (const char c : text) {
-    if (text::is_line_end(c)) {
-      last = 0;
-      is_in_comment = false;
-    } else if (is_in_comment) {
-      is_in_comment = c != ')';
+/// Whether the number that begins a text is 92. Blanks and comments mean nothing within a number, and a comment that is
+/// not closed takes the rest of its line.
+static bool begins_with_92(std::string_view text) {
+  static constexpr std::string_view kDigits = "92";
+  std::size_t known = 0;
+  for (std::size_t at = 0; at < text.size() && !text::is_line_end(text[at]); ++at) {
+    const char c = text[at];
+    if (c == kDigits[known]) {
+      if (++known == kDigits.size()) return true;
     } else if (c == '(') {
-      is_in_comment = true;
-    } else if (text::upper(c) == 'G') {
-      last = 'G';
-    } else if (last == '9' && c == '2') {
-      return true;
-    } else if (last == 'G' && c == '9') {
-      last = '9';
-    } else if (!text::is_blank(c) && !(last == 'G' && (c == '0' || c == '+'))) {
-      last = 0;
+      while (at + 1 < text.size() && !text::is_line_end(text[at + 1]) && text[at] != ')') ++at;
+    } else if (!text::is_blank(c) && !(known == 0 && (c == '0' || c == '+'))) {
+      return false;
     }
   }
+  return false;
+}
+
+/// Whether a program may have a G92; a glance that saves a run of those that have none. It misses none, and takes those
+/// in comments as well.
+static bool may_set_origin(std::string_view text) {
+  for (const char letter : {'G', 'g'})
+    for (std::size_t at = text.find(letter); at != std::string_view::npos; at = text.find(letter, at + 1))
+      if (begins_with_92(text.substr(at + 1))) return true;
   return false;
 }
 
