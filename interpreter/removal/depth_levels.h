@@ -8,27 +8,27 @@
 
 namespace isocnc::removal {
 
-/// A line on which a contact goes much deeper than on all lines before, or on which it begins.
+/// A line on which a part of what is in contact goes much deeper than on all lines before, or begins to touch.
 struct DepthLevel {
   std::size_t line = 0;       ///< From 0.
+  std::size_t part = 0;       ///< Of the mover: a number of the caller's.
   double depth = 0;           ///< The greatest one on the line, mm.
   geometry::Frame frame;      ///< In force there; in the machine frame.
   bool is_in_inches = false;  ///< G70 is in force there.
 };
 
 /// Takes the next depth of a contact, in the order of the run. Whoever accepts a contact on the line where it begins
-/// has not accepted one that is much deeper on a later line; rounded corners make a line a little deeper than another.
+/// has not accepted that it is much deeper on a later line, or that the holder follows the cutter; rounded corners make
+/// a line a little deeper than another.
 inline void take_depth(std::vector<DepthLevel>& levels, const DepthLevel& next) {
   constexpr double kMuchDeeper = 0.25;  // mm, or this part of the depth.
-  if (!levels.empty()) {
-    DepthLevel& last = levels.back();
-    if (last.line == next.line) {
-      last.depth = std::max(last.depth, next.depth);
-      return;
-    }
-    if (!(next.depth > last.depth + kMuchDeeper * std::max(1.0, last.depth))) return;
+  const auto last =
+      std::find_if(levels.rbegin(), levels.rend(), [&](const DepthLevel& each) { return each.part == next.part; });
+  if (last != levels.rend() && last->line == next.line) {
+    last->depth = std::max(last->depth, next.depth);
+  } else if (last == levels.rend() || next.depth > last->depth + kMuchDeeper * std::max(1.0, last->depth)) {
+    levels.push_back(next);
   }
-  levels.push_back(next);
 }
 
 }  // namespace isocnc::removal

@@ -484,7 +484,8 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   const SweepUse& use = uses_[sweep];
   const UncutStretch& stretch = waiting_[use.stretch];
   const std::size_t number = cut_ + use.stretch;
-  const auto [known, is_new] = open_.try_emplace(key);
+  const bool is_body = key.first == IncidentKind::BodyInMaterial;
+  const auto [known, is_new] = open_.try_emplace({key.first, is_body ? ToolPart::Shank : key.second});
   OpenIncident& episode = known->second;
   // A short motion may meet no dexel.
   const double shortest = 2 * stock_.spacing();
@@ -497,10 +498,14 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
                             .time = stretch.stretch.time_at(use.from),
                             .tool = code_},
                .begins_in_feed = stretch.is_feed,
-               .first_sweep = sweep};
+               .first_stretch = number};
     if (key.first == IncidentKind::SpindleStopped) episode.incident.shaped_by = spindle_stopped_by_;
   }
   Incident& incident = episode.incident;
+  const auto is_of_part = [&](const FirstSweep& each) { return each.part == key.second; };
+  if (number == episode.first_stretch &&
+      std::none_of(episode.first_sweeps.begin(), episode.first_sweeps.end(), is_of_part))
+    episode.first_sweeps.push_back({.part = key.second, .sweep = sweep});
   episode.last_stretch = number;
   episode.last_way = stretch.way + stretch.length;
   incident.end_line = stretch.line;
@@ -512,11 +517,13 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   const double deep = lies ? -lowest_along(path, axis) : outcome.depth;
   if (lies && !episode.lying_start) episode.lying_start = deep;
   take_depth(incident.levels, {.line = stretch.line,
+                               .part = static_cast<std::size_t>(key.second),
                                .depth = lies ? std::max(0.0, deep - *episode.lying_start) : deep,
                                .frame = frames_[stretch.frame],
                                .is_in_inches = stretch.is_in_inches});
   if (goes_on && !(deep > episode.deepest)) return;
   episode.deepest = deep;
+  incident.part = key.second;
   incident.amount = outcome.depth;
   incident.point = in_machine(outcome.point);
   incident.frame = frames_[stretch.frame];
@@ -592,10 +599,10 @@ void MaterialCheck::look_closely(Stock before) {
   };
   std::vector<Question> questions;
   const auto ask = [&](OpenIncident& episode) {
-    if (episode.first_sweep) {
-      questions.push_back({first_of_line(*episode.first_sweep), &episode, About::Before});
-      questions.push_back({*episode.first_sweep, &episode, About::FirstTouch});
-    }
+    if (!episode.first_sweeps.empty())
+      questions.push_back({first_of_line(episode.first_sweeps.front().sweep), &episode, About::Before});
+    for (const FirstSweep& first : episode.first_sweeps)
+      questions.push_back({first.sweep, &episode, About::FirstTouch});
     if (episode.deepest_sweep) questions.push_back({*episode.deepest_sweep, &episode, About::Worst});
   };
   for (auto& [key, episode] : open_) ask(episode);
@@ -615,7 +622,7 @@ void MaterialCheck::look_closely(Stock before) {
         question.episode->before = before;
         break;
       case About::FirstTouch:
-        find_first_touch(*question.episode, before);
+        find_first_touch(*question.episode, question.sweep, before);
         break;
       case About::Worst:
         ++looked_at_;
@@ -623,7 +630,10 @@ void MaterialCheck::look_closely(Stock before) {
         break;
     }
   }
-  for (auto& [key, episode] : open_) episode.first_sweep = episode.deepest_sweep = std::nullopt;
+  for (auto& [key, episode] : open_) {
+    episode.first_sweeps.clear();
+    episode.deepest_sweep.reset();
+  }
   for (OpenIncident& episode : closed_) keep(episode.incident);
   closed_.clear();
 }
@@ -641,10 +651,10 @@ static bool meets(const Stock& stock, const RevolvedBody& body, const SweepPath&
   return ask(stock, body, path, SweepPurpose::Find).meets();
 }
 
-void MaterialCheck::find_first_touch(OpenIncident& episode, const Stock& before) {
-  const SweepUse& use = uses_[*episode.first_sweep];
+void MaterialCheck::find_first_touch(OpenIncident& episode, std::size_t sweep, const Stock& before) {
+  const SweepUse& use = uses_[sweep];
   if (use.role == Role::Cut) return;
-  const RevolvedBody& body = *sweeps_[*episode.first_sweep].body;
+  const RevolvedBody& body = *sweeps_[sweep].body;
   const motion::Stretch& stretch = waiting_[use.stretch].stretch;
   const auto meets_until = [&](double s) {
     std::vector<TipPath> pieces;
@@ -660,7 +670,9 @@ void MaterialCheck::find_first_touch(OpenIncident& episode, const Stock& before)
     const double middle = (free + touching) / 2;
     (meets_until(middle) ? touching : free) = middle;
   }
-  episode.incident.time = stretch.time_at(touching);
+  const double time = stretch.time_at(touching);
+  episode.first_touch = std::min(time, episode.first_touch.value_or(time));
+  episode.incident.time = *episode.first_touch;
 }
 
 /// Whether shank, holder and nose were already, at the start of a rapid, in all that the cutter meets on a piece of it.
@@ -772,7 +784,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
 
 void MaterialCheck::close(OpenIncident& episode) {
   // What the present batch has shown of it is still to be looked at.
-  if (episode.first_sweep || episode.deepest_sweep) {
+  if (!episode.first_sweeps.empty() || episode.deepest_sweep) {
     closed_.push_back(episode);
   } else {
     keep(episode.incident);
@@ -806,9 +818,6 @@ static bool is_said_by(const Incident& each, const Incident& other) {
     case IncidentKind::RapidInMaterial:
       return each.follows_body && other.kind == IncidentKind::BodyInMaterial && other.time <= each.time;
     case IncidentKind::BodyInMaterial:
-      return is_begun_by_rapid ||
-             (other.kind == IncidentKind::BodyInMaterial &&
-              (other.amount > each.amount || (other.amount == each.amount && other.part < each.part)));
     case IncidentKind::CutTooDeep:
       return is_begun_by_rapid;
     default:
@@ -893,14 +902,6 @@ std::vector<Incident> MaterialCheck::incidents_so_far() const {
   std::stable_sort(all.begin(), all.end(), [](const Incident& a, const Incident& b) { return a.time < b.time; });
   drop_said_twice(all);
   return all;
-}
-
-bool MaterialCheck::is_hitting() const {
-  return std::any_of(open_.begin(), open_.end(), [&](const auto& each) {
-    const IncidentKind kind = each.first.first;
-    const bool is_hit = kind == IncidentKind::RapidInMaterial || kind == IncidentKind::BodyInMaterial;
-    return is_hit && each.second.last_stretch + 1 >= cut_;
-  });
 }
 
 void MaterialCheck::finish() {

@@ -60,8 +60,6 @@ class MaterialCheck {
   std::size_t stretch_count() const { return cut_ + waiting_.size(); }
   /// After settle(): the incidents since forget_past(), and those that may go on, by time and as they are known so far.
   std::vector<Incident> incidents_so_far() const;
-  /// After settle(): whether a rapid, a shank, a holder or the nose is in material at the end of the last stretch.
-  bool is_hitting() const;
 
   /// After finish(): by time.
   const std::vector<Incident>& incidents() const { return incidents_; }
@@ -130,19 +128,27 @@ class MaterialCheck {
     Removed removed;
   };
 
+  /// A sweep of the stretch on which an incident begins.
+  struct FirstSweep {
+    ToolPart part = ToolPart::Cutter;
+    std::size_t sweep = 0;
+  };
+
   /// An incident that may go on.
   struct OpenIncident {
     Incident incident;
     std::size_t last_stretch = 0;  ///< Counted from the start of the run.
     bool begins_in_feed = false;
+    std::size_t first_stretch = 0;             ///< Counted alike.
     double last_way = 0;                       ///< Of the tip up to where it was met last, mm.
     double deepest = 0;                        ///< Of the sweeps that have been compared, mm.
     std::optional<double> lying_start;         ///< Where a tool that lies was first, along its axis; mm.
-    std::optional<std::size_t> first_sweep;    ///< Of the present batch, where it begins there.
+    std::vector<FirstSweep> first_sweeps;      ///< Of the present batch, where it begins there: one for each part.
+    std::optional<double> first_touch;         ///< Of those that have been looked at, seconds.
     std::optional<std::size_t> deepest_sweep;  ///< Of the present batch, where it is worst there.
     std::optional<stock::Stock> before;        ///< As the line has found it on which the incident began.
   };
-  using IncidentKey = std::pair<IncidentKind, ToolPart>;
+  using IncidentKey = std::pair<IncidentKind, ToolPart>;  ///< Shank, holder and nose in material are one, the shank.
 
   void form(const CuttingTool& tool);
   void stand(const running::Event& event, double time, const geometry::Frame& frame);
@@ -169,7 +175,7 @@ class MaterialCheck {
   void note_ways(const std::vector<bool>& has_cut);
   void end_way();
   void look_closely(stock::Stock before);
-  void find_first_touch(OpenIncident& episode, const stock::Stock& before);
+  void find_first_touch(OpenIncident& episode, std::size_t sweep, const stock::Stock& before);
   void find_worst(OpenIncident& episode, const stock::Stock& before);
   stock::SweepPath placed(const stock::SweepPath& tip, Role role) const;
   void compare_with_target();

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -190,6 +191,30 @@ TEST(Material, AHolderThatGoesMuchDeeperIsToldThereAsWell) {
   for (const simulation::RunFinding& each : run.outcome.findings)
     if (dialect::definition(each.finding.id).code == "E151") lines.push_back(each.line + 1);
   EXPECT_EQ(lines, (std::vector<std::size_t>{4, 6}));
+}
+
+/// From the first touch of any of them to the last; the deepest is named.
+TEST(Material, ShankAndHolderAreOneContact) {
+  Bench bench;
+  ToolBodies& tool = bench.scene.tools[Shop::kTool];
+  tool.cutter = Shop::body(solids::flat_body(10, 10));
+  const solids::StackRow shank{.height = 15, .lower_diameter = 12, .upper_diameter = 12};
+  tool.shank = Shop::body(solids::stacked_body({&shank, 1}, 10));
+  const solids::StackRow holder{.height = 75, .lower_diameter = 50, .upper_diameter = 50};
+  tool.holder = Shop::body(solids::stacked_body({&holder, 1}, 25));
+  // Down, the holder goes 3 mm deep; across, the shank meets the 15 mm between cutter and holder.
+  const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\nG01 Z12 F1000\nX370\nG00 Z50\n");
+  const auto of_body = std::find_if(run.contacts.begin(), run.contacts.end(),
+                                    [](const Contact& each) { return dialect::definition(each.id).code == "E151"; });
+  ASSERT_NE(of_body, run.contacts.end());
+  EXPECT_EQ(of_body->line, 3u);
+  EXPECT_GE(of_body->worst_line, 4u);
+  EXPECT_EQ(of_body->who.in(Language::English), "the shank of T101001");
+  EXPECT_NEAR(of_body->distance, -15, 0.1);
+  const VerifiedRun plunge = bench.cut("G00 X350 Y150 Z50\nG01 Z12 F1000\nG00 Z50\n");
+  ASSERT_FALSE(plunge.contacts.empty());
+  EXPECT_NEAR(plunge.contacts.front().time, of_body->time, 0.001);
+  EXPECT_EQ(plunge.contacts.front().who.in(Language::English), "the holder of T101001");
 }
 
 TEST(Material, HolderOverWhatIsCutAway) {
