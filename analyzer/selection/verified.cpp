@@ -1,14 +1,23 @@
 #include "analyzer/selection/verified.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <set>
+#include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "analyzer/selection/joined_runs.h"
 #include "analyzer/selection/vgpl_values.h"
 
 namespace isocnc::selection {
 
+using verification::Certificate;
+using verification::Contact;
+using verification::Mover;
+using verification::Unverified;
 using verification::VerifiedRun;
 
 VerifiedRun verified(std::string_view text, const ProgramSettings& settings, const verification::Scene* scene,
@@ -32,6 +41,53 @@ static void add_gaps(VerifiedRun& run, const VgplValues& values) {
   run.certificate->gaps.insert(run.certificate->gaps.end(), gaps.begin(), gaps.end());
 }
 
+namespace {
+
+/// Makes the certificate of all runs.
+class JoinedCertificates {
+ public:
+  explicit JoinedCertificates(VerifiedRun& first) : first_(first) { note(first.contacts); }
+
+  /// Takes another run.
+  void add(const VerifiedRun& run) {
+    if (!first_.certificate || !run.certificate) return;
+    Certificate& all = *first_.certificate;
+    const Certificate& other = *run.certificate;
+    ++all.paths;
+    all.motions += other.motions;
+    all.contacts += note(run.contacts);
+    all.more_contacts += other.more_contacts;
+    if (!all.stopped_at) all.stopped_at = other.stopped_at;
+    for (const Unverified& gap : other.gaps) {
+      const auto is_same = [&](const Unverified& each) {
+        return each.gap == gap.gap && each.name.number == gap.name.number;
+      };
+      if (std::none_of(all.gaps.begin(), all.gaps.end(), is_same)) all.gaps.push_back(gap);
+    }
+    for (const std::string& tool : other.bare_tools)
+      if (std::find(all.bare_tools.begin(), all.bare_tools.end(), tool) == all.bare_tools.end())
+        all.bare_tools.push_back(tool);
+  }
+
+ private:
+  using KnownContact = std::tuple<dialect::DiagnosticId, std::size_t, std::size_t, std::uint32_t, Mover>;
+
+  /// Returns how many of these have not been known; near misses and hints do not count.
+  std::size_t note(const std::vector<Contact>& contacts) {
+    std::size_t added = 0;
+    for (const Contact& each : contacts) {
+      if (dialect::definition(each.id).severity != dialect::Severity::Error) continue;
+      if (known_.emplace(each.id, each.line, each.end_line, each.whom.number, each.mover).second) ++added;
+    }
+    return added;
+  }
+
+  VerifiedRun& first_;
+  std::set<KnownContact> known_;
+};
+
+}  // namespace
+
 VerifiedRun verified_on_paths(std::string_view text, const running::RunOptions& options,
                               const simulation::TimedMachine& machine, const verification::Scene* scene,
                               const verification::WorkTogether& together,
@@ -43,6 +99,7 @@ VerifiedRun verified_on_paths(std::string_view text, const running::RunOptions& 
   std::optional<double> vgpl = values.next();
   if (vgpl) {
     JoinedRuns joined;
+    JoinedCertificates certificates(first);
     joined.add(std::move(first.outcome));
     for (std::size_t paths = 1; vgpl && paths < kMaxVerifiedPaths; ++paths) {
       if (options.stop && options.stop()) break;
@@ -50,6 +107,7 @@ VerifiedRun verified_on_paths(std::string_view text, const running::RunOptions& 
       other.vgpl = *vgpl;
       VerifiedRun run = verification::verified_run(text, other, machine, scene, together, material);
       values.take(run.outcome.runs.front());
+      certificates.add(run);
       joined.add(std::move(run.outcome));
       vgpl = values.next();
     }

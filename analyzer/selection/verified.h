@@ -28,7 +28,7 @@ verification::VerifiedRun verified(std::string_view text, const ProgramSettings&
 /// Runs a program with the VGPL of `options`, and once more for each other path that a value of VGPL leads it along;
 /// VGPL keeps its value during a run. The outcome is that of all runs: what only others than the first find has a path.
 /// Where more than kMaxVerifiedPaths paths are left, or a jump depends on a register that the program has not assigned,
-/// a finding says so (W162). Contacts and certificate are those of the first run.
+/// a finding says so (W162). The certificate is that of all runs; the contacts are those of the first.
 verification::VerifiedRun verified_on_paths(std::string_view text, const running::RunOptions& options,
                                             const simulation::TimedMachine& machine, const verification::Scene* scene,
                                             const verification::WorkTogether& together = {},

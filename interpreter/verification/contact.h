@@ -77,6 +77,7 @@ struct Unverified {
 /// What has been proven, and what not.
 struct Certificate {
   std::size_t motions = 0;          ///< Motions of the machine that were examined.
+  std::size_t paths = 1;            ///< Paths of the program that were run; what they share counts on each.
   std::size_t contacts = 0;         ///< Near misses do not count.
   double epsilon = 0;               ///< Nothing nearer than this is unseen, mm.
   std::optional<double> soft_disc;  ///< Overlaps with material that hold a disc of this diameter are seen, mm,
@@ -88,7 +89,7 @@ struct Certificate {
   bool has_setup = true;                ///< Whether a setup is for the program.
   bool is_setup_empty = false;          ///< It describes no body.
   bool has_nose = true;                 ///< Whether the spindle nose is described.
-  std::vector<std::string> bare_tools;  ///< Tools with a shape and without a holder, as `T101001`.
+  std::vector<std::string> bare_tools;  ///< Tools without a holder, as `T101001`, whose length is known.
   std::vector<Unverified> gaps;
   /// Bodies of the machine that are not compared, since they touch each other from the start: `gantry` and `rails`.
   std::vector<std::pair<std::string, std::string>> touching;

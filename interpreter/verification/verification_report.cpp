@@ -105,7 +105,9 @@ std::string in_words(const Certificate& certificate, Language language) {
       "in the material, in the setup of {}",
       "verificato: {}, {}; nulla di più vicino di {} mm sfugge, né di più largo di {:.2f} mm e profondo più di "
       "{:.2f} mm nel materiale, nell'attrezzaggio di {}"};
-  const std::string motions = counted(certificate.motions, {"motion", "movimento"}, {"motions", "movimenti"}, language);
+  std::string motions = counted(certificate.motions, {"motion", "movimento"}, {"motions", "movimenti"}, language);
+  if (certificate.paths > 1)
+    motions += dialect::format(Text{" on {} paths", " su {} percorsi"}, language, certificate.paths);
   const std::string contacts =
       counted(certificate.contacts, {"contact", "contatto"}, {"contacts", "contatti"}, language);
   std::string line = certificate.soft_disc

@@ -92,11 +92,10 @@ void Verifier::mount(const execution::ToolCode& tool, const running::Event& even
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;
   const bool is_empty = mounted.name.empty();  // After T000000 nothing of a tool is there.
-  if (is_empty || (has_length && has_shape && mounted.bodies->holder) || !known_gaps_.insert(tool).second) return;
-  if (has_length && has_shape) {
-    certificate_.bare_tools.push_back(mounted.name);
-    return;
-  }
+  const bool has_holder = mounted.bodies && mounted.bodies->holder;
+  if (is_empty || (has_length && has_shape && has_holder) || !known_gaps_.insert(tool).second) return;
+  if (has_length && !has_holder) certificate_.bare_tools.push_back(mounted.name);
+  if (has_length && has_shape) return;
   certificate_.gaps.push_back({.gap = has_length ? Gap::ToolWithoutShape : Gap::ToolWithoutLength,
                                .line = event.line,
                                .name = dialect::GivenName::of({mounted.name, mounted.name})});

@@ -116,6 +116,16 @@ TEST_F(Surroundings, AreCertifiedByIsorun) {
               HasSubstr("; not verified: T101002 has no shape, T101003 has no length, what follows the error on line"));
 }
 
+TEST_F(Surroundings, AreCertifiedOnAllPathsThatAreRun) {
+  folder_.write("jump.iso",
+                "M06 T101001\nG00 X0 Y0 Z40\nIF VGPL <> 1 GOTO N10\nM06 T101002\nM06 T101001\nZ10\nN10 G01 X120 F1000\n"
+                "G00 Z50\nM02\n");
+  const CommandResult result = run({"isolint", "--verify", "--select", "E", "jump.iso"});
+  EXPECT_THAT(result.out, HasSubstr("error[E152]"));
+  EXPECT_THAT(result.err, AllOf(HasSubstr(" motions on 2 paths, 1 contact; "), HasSubstr("T101002 has no shape"),
+                                HasSubstr("T101002 has no holder")));
+}
+
 TEST_F(Surroundings, AreCertifiedByIsolint) {
   const CommandResult both = run({"isolint", "--verify", "free.iso", "hit.iso"});
   EXPECT_EQ(
