@@ -51,6 +51,7 @@ Clearance body_in(const RevolvedBody& body, const AxisPlacement& at, const Shape
     if (depth_of(i) > depth_of(deepest)) deepest = i;
   Clearance result = gaps[deepest];
   result.lower = result.upper = -out.depth;
+  result.way_out = -out.direction;
   return result;
 }
 

@@ -31,6 +31,8 @@ struct Clearance {
   double upper = std::numeric_limits<double>::infinity();
   geometry::Vec3 on_body = geometry::Vec3::Zero();      ///< The point of the body that `upper` belongs to.
   geometry::Vec3 on_obstacle = geometry::Vec3::Zero();  ///< The point of the obstacle.
+  /// Where a body of revolution overlaps a convex obstacle: the way out, of length 1; else 0.
+  geometry::Vec3 way_out = geometry::Vec3::Zero();
 
   double depth() const { return std::max(0.0, -upper); }
 };

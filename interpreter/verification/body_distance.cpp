@@ -1,13 +1,21 @@
 #include "interpreter/verification/body_distance.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace isocnc::verification {
 
 using geometry::Vec3;
 
-/// A point of a face that is near a point inside.
-static Vec3 on_surface(const solids::Cuboid& box, const Vec3& inside) {
+/// A point of the face that is on the way out from a point inside, or near it where the way is not known.
+static Vec3 on_surface(const solids::Cuboid& box, const Vec3& inside, const Vec3& way_out) {
+  if (!way_out.isZero(0)) {
+    Eigen::Index along = 0;
+    way_out.cwiseAbs().maxCoeff(&along);
+    Vec3 point = inside;
+    point[along] = way_out[along] > 0 ? box.maximum[along] : box.minimum[along];
+    return point;
+  }
   const Vec3 above = inside - box.minimum;
   const Vec3 below = box.maximum - inside;
   Eigen::Index lowest = 0;
@@ -19,23 +27,31 @@ static Vec3 on_surface(const solids::Cuboid& box, const Vec3& inside) {
   return point;
 }
 
-static Vec3 on_surface(const solids::Cylinder& cylinder, const Vec3& inside) {
+static Vec3 on_surface(const solids::Cylinder& cylinder, const Vec3& inside, const Vec3& way_out) {
   const double height = cylinder.at.axis.dot(inside - cylinder.at.origin);
   const Vec3 center = cylinder.at.at(height);
   const Vec3 outwards = inside - center;
+  if (!way_out.isZero(0)) {
+    const double along = cylinder.at.axis.dot(way_out);
+    const Vec3 across = way_out - along * cylinder.at.axis;
+    if (std::abs(along) > across.norm()) return cylinder.at.at(along > 0 ? cylinder.height : 0) + outwards;
+    return center + across.normalized() * cylinder.radius;
+  }
   const double radius = outwards.norm();
   const double to_face = std::min(height, cylinder.height - height);
   if (radius > 0 && cylinder.radius - radius <= to_face) return center + outwards * (cylinder.radius / radius);
   return cylinder.at.at(height <= cylinder.height - height ? 0 : cylinder.height) + outwards;
 }
 
-static Vec3 on_surface(const std::shared_ptr<const solids::Mesh>&, const Vec3& on_triangle) { return on_triangle; }
+static Vec3 on_surface(const std::shared_ptr<const solids::Mesh>&, const Vec3& on_triangle, const Vec3&) {
+  return on_triangle;
+}
 
 /// Where two bodies overlap, the point of the obstacle may be any point of both.
 static solids::Clearance with_surface_point(const BodyShape& shape, solids::Clearance found) {
   if (found.upper < 0)
     found.on_obstacle =
-        std::visit([&](const auto& obstacle) { return on_surface(obstacle, found.on_obstacle); }, shape);
+        std::visit([&](const auto& obstacle) { return on_surface(obstacle, found.on_obstacle, found.way_out); }, shape);
   return found;
 }
 
