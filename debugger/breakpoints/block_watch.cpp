@@ -15,12 +15,13 @@ std::vector<InnerMoment> BlockWatch::pass_block(simulation::Simulation& simulati
       surroundings_.pass_block(simulation, {.contacts = wants_contacts(), .limits = breakpoints_.limits()});
   std::vector<InnerMoment> moments;
   for (verification::Contact& contact : passed.contacts)
-    moments.push_back({.time = contact.time, .contact = std::move(contact), .depth_before = {}});
-  for (debuggee::Surroundings::DeeperContact& deeper : passed.deeper)
-    moments.push_back(
-        {.time = deeper.contact.worst_time, .contact = std::move(deeper.contact), .depth_before = deeper.depth_before});
+    moments.push_back({.time = contact.time, .contact = std::move(contact)});
+  // Otherwise a contact stops the run where it begins alone.
+  if (filters_.asks_for_depth())
+    for (verification::Contact& contact : passed.deeper)
+      moments.push_back({.time = contact.worst_time, .contact = std::move(contact)});
   for (const debuggee::LimitCrossing& crossing : passed.crossings)
-    moments.push_back({.time = crossing.time, .contact = {}, .depth_before = {}, .limit = crossing.limit});
+    moments.push_back({.time = crossing.time, .contact = {}, .limit = crossing.limit});
   std::stable_sort(moments.begin(), moments.end(),
                    [](const InnerMoment& a, const InnerMoment& b) { return a.time < b.time; });
   return moments;
@@ -32,11 +33,6 @@ MomentVerdict BlockWatch::judge(const InnerMoment& moment, expressions::Moment a
   if (!moment.contact) {
     breakpoints_.judge_limit(moment.limit, at, block, direction, verdict.outcome);
     return verdict;
-  }
-  if (moment.depth_before) {
-    // Where the filter has stopped the run already, or would have, nothing is new.
-    at.contact_depth = *moment.depth_before;
-    if (filters_.find_contact(*moment.contact, at, language)) return verdict;
   }
   at.contact_depth = std::max(0.0, -moment.contact->distance);
   verdict.exception = filters_.find_contact(*moment.contact, at, language);

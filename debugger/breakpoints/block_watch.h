@@ -15,8 +15,6 @@ namespace isocnc::breakpoints {
 struct InnerMoment {
   double time = 0;  ///< Seconds since the start.
   std::optional<verification::Contact> contact;
-  /// Of a contact that goes on from before the block and gets deeper, here: how deep it was before, mm.
-  std::optional<double> depth_before;
   std::size_t limit = 0;  ///< Without a contact: index among the limits of the data breakpoints.
 };
 

@@ -41,6 +41,11 @@ class ExceptionFilters {
   std::multimap<std::size_t, Warning> of_run;
 
   bool is_on(ExceptionFilter filter) const { return on_[static_cast<std::size_t>(filter)]; }
+  /// Whether the filter of contacts depends on how deep one is.
+  bool asks_for_depth() const {
+    const auto& condition = conditions_[static_cast<std::size_t>(ExceptionFilter::Contacts)];
+    return condition && condition->reads_depth();
+  }
   /// A condition counts for filters that take one. Without, the filter stops the run in any case.
   void turn_on(ExceptionFilter filter, std::optional<expressions::Expression> condition = {}) {
     on_[static_cast<std::size_t>(filter)] = true;

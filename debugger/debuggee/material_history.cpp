@@ -418,7 +418,7 @@ MaterialHistory::BlockAnswers MaterialHistory::examine(const BlockRecord& record
   const auto to = std::make_shared<BlockState>(*from);
   apply(*to, record);
   BlockAnswers answers;
-  if (questions.contacts) answers.contacts = contacts_in(record, *from, *to);
+  if (questions.contacts) find_contacts(record, *from, *to, answers);
   find_crossings(record, *from, *to, questions, answers);
   record_ = record;
   if (debuggee_.is_run_by_hand_at(to->block)) return answers;
@@ -430,50 +430,21 @@ static bool is_error(const Incident& incident) {
   return dialect::definition(verification::diagnostic_of(incident.kind)).severity == dialect::Severity::Error;
 }
 
-static bool is_same(const Incident& a, const Incident& b) {
-  return a.kind == b.kind && a.part == b.part && a.time == b.time;
-}
+static bool is_same(const Incident& a, const Incident& b) { return a.kind == b.kind && a.time == b.time; }
 
-static bool is_among(const std::vector<Incident>& all, const Incident& incident) {
-  return std::any_of(all.begin(), all.end(), [&](const Incident& each) { return is_same(each, incident); });
-}
-
-/// Which of several bodies tells a contact may be known later only, when all have left the material.
-std::vector<Incident> MaterialHistory::incidents_until_apart(const BlockState& to) const {
-  constexpr std::uint64_t kAtOnce = 16;
-  constexpr std::uint64_t kMaxBlocks = 4096;
-  MaterialCheck check = to.check;
-  for (std::uint64_t block = to.block; check.is_hitting() && block < to.block + kMaxBlocks; block += kAtOnce) {
-    bool is_end = true;
-    const auto pass_block = [&](Simulation& simulation) {
-      const BlockRecord record = record_block(simulation);
-      is_end = false;
-      if (!check.is_hitting()) return;
-      feed(check, record, kToTheEnd);
-      check.settle();
-    };
-    debuggee_.pass_blocks(block, block + kAtOnce, pass_block, [](Simulation&) {});
-    if (is_end) break;
+void MaterialHistory::find_contacts(const BlockRecord& record, const BlockState& from, const BlockState& to,
+                                    BlockAnswers& answers) const {
+  const std::vector<Incident> all_known = from.check.incidents_so_far();
+  for (const Incident& each : to.check.incidents_so_far()) {
+    if (!is_error(each)) continue;
+    const auto known =
+        std::find_if(all_known.begin(), all_known.end(), [&](const Incident& other) { return is_same(each, other); });
+    if (known == all_known.end()) {
+      if (each.time >= record.start) answers.contacts.push_back(verification::contact_of(each, scene_));
+    } else if (each.amount > known->amount + kDeeper) {
+      answers.deeper.push_back(verification::contact_of(each, scene_));
+    }
   }
-  return check.incidents_so_far();
-}
-
-std::vector<Contact> MaterialHistory::contacts_in(const BlockRecord& record, const BlockState& from,
-                                                  const BlockState& to) const {
-  const std::vector<Incident> known = from.check.incidents_so_far();
-  std::vector<Incident> begun = to.check.incidents_so_far();
-  std::erase_if(begun, [&](const Incident& each) {
-    return !is_error(each) || each.time < record.start || is_among(known, each);
-  });
-  const bool has_bodies = std::any_of(begun.begin(), begun.end(),
-                                      [](const auto& each) { return each.kind == IncidentKind::BodyInMaterial; });
-  if (has_bodies) {
-    const std::vector<Incident> told = incidents_until_apart(to);
-    std::erase_if(begun, [&](const Incident& each) { return !is_among(told, each); });
-  }
-  std::vector<Contact> contacts;
-  for (const Incident& each : begun) contacts.push_back(verification::contact_of(each, scene_));
-  return contacts;
 }
 
 void MaterialHistory::find_crossings(const BlockRecord& record, const BlockState& from, const BlockState& to,

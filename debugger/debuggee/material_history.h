@@ -55,6 +55,7 @@ class MaterialHistory {
   struct BlockAnswers {
     /// Contacts of error severity that begin, by time, each with the depth that it reaches in this block.
     std::vector<verification::Contact> contacts;
+    std::vector<verification::Contact> deeper;  ///< Those that go on from before the block and get deeper in it.
     std::vector<LimitCrossing> crossings;
   };
   /// `record` is that of the whole block.
@@ -114,9 +115,8 @@ class MaterialHistory {
   bool ends_in_cut(std::uint64_t block);
   std::vector<InCutPiece> in_cut_pieces(const BlockState& from, const BlockRecord& record, std::size_t piece,
                                         double until) const;
-  std::vector<removal::Incident> incidents_until_apart(const BlockState& to) const;
-  std::vector<verification::Contact> contacts_in(const BlockRecord& record, const BlockState& from,
-                                                 const BlockState& to) const;
+  void find_contacts(const BlockRecord& record, const BlockState& from, const BlockState& to,
+                     BlockAnswers& answers) const;
   void find_crossings(const BlockRecord& record, const BlockState& from, const BlockState& to,
                       const BlockQuestions& questions, BlockAnswers& answers);
   std::vector<double> removed_crossings(const SurroundingsLimit& limit, const BlockRecord& record,

@@ -159,11 +159,16 @@ class BlockPass {
     };
     log.take(found, place_of, bodies, tool_);
     log.close_all();
-    for (const Contact& contact : log.contacts()) {
-      if (contact.line != kBefore)
+    // Where a block ends, the next one begins, and its line is shown.
+    constexpr double kBeforeEnd = 1e-6;  // s
+    const double inside = stretches_.back().start + stretches_.back().duration - kBeforeEnd;
+    for (Contact& contact : log.contacts()) {
+      if (contact.line != kBefore) {
         passed_.contacts.push_back(contact);
-      else if (contact.worst_line != kBefore)
-        passed_.deeper.push_back({.contact = contact, .depth_before = contact.levels.front().depth});
+      } else if (-contact.distance > contact.levels.front().depth + kDeeper) {
+        contact.worst_time = std::min(contact.worst_time, inside);
+        passed_.deeper.push_back(contact);
+      }
     }
   }
 
@@ -202,12 +207,13 @@ Surroundings::PassedBlock Surroundings::pass_block(Simulation& simulation, const
     const auto answers = material->examine(was_in_block ? material->record_of(record.block) : record,
                                            {.contacts = wanted.contacts, .limits = wanted.limits});
     passed.contacts.insert(passed.contacts.end(), answers.contacts.begin(), answers.contacts.end());
+    passed.deeper.insert(passed.deeper.end(), answers.deeper.begin(), answers.deeper.end());
     passed.crossings.insert(passed.crossings.end(), answers.crossings.begin(), answers.crossings.end());
   }
   if (!was_in_block) return passed;
   const auto is_past = [time](const auto& each) { return !(each.time > time); };
   std::erase_if(passed.contacts, is_past);
-  std::erase_if(passed.deeper, [time](const auto& each) { return !(each.contact.worst_time > time); });
+  std::erase_if(passed.deeper, [time](const Contact& each) { return !(each.worst_time > time); });
   std::erase_if(passed.crossings, is_past);
   return passed;
 }

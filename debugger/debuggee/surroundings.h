@@ -55,17 +55,11 @@ class Surroundings {
   /// The run has been changed where this many blocks had been executed.
   void forget_from(std::uint64_t blocks);
 
-  /// A contact that goes on from before a block, and goes deeper in it.
-  struct DeeperContact {
-    verification::Contact contact;
-    double depth_before = 0;  ///< On the stretch before the block, mm.
-  };
-
   /// What happens on the way through a block.
   struct PassedBlock {
     /// Contacts that begin, by time, each with the depth that it reaches in this block.
     std::vector<verification::Contact> contacts;
-    std::vector<DeeperContact> deeper;
+    std::vector<verification::Contact> deeper;  ///< Those that go on from before the block and get deeper in it.
     /// Where the machine comes to be beyond one of the limits: within a motion, at the end of a tool change or, for
     /// limits of the material, at the begin of a block.
     std::vector<LimitCrossing> crossings;

@@ -9,6 +9,10 @@
 
 namespace isocnc::debuggee {
 
+/// By how much a contact is deeper in a block than before it, to be asked about again, mm: corners that are rounded
+/// make less.
+inline constexpr double kDeeper = 0.05;
+
 /// What of the surroundings a limit is for.
 enum class LimitedQuantity : std::uint8_t {
   Clearance,  ///< mm

@@ -231,6 +231,12 @@ bool Expression::is_constant() const {
   return std::all_of(code_.begin(), code_.end(), [](const auto& each) { return each.quantity == nullptr; });
 }
 
+bool Expression::reads_depth() const {
+  return std::any_of(code_.begin(), code_.end(), [](const StackInstruction& each) {
+    return each.quantity && each.quantity->limited == debuggee::LimitedQuantity::Depth;
+  });
+}
+
 bool Expression::reads_surroundings() const {
   return std::any_of(code_.begin(), code_.end(),
                      [](const auto& each) { return each.quantity != nullptr && each.quantity->limited.has_value(); });

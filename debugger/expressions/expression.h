@@ -47,6 +47,7 @@ class Expression {
   /// Whether it names no quantity.
   bool is_constant() const;
   bool reads_surroundings() const;
+  bool reads_depth() const;
 
  private:
   friend class ExpressionCompiler;

@@ -30,7 +30,8 @@ void ContactLog::take_one(const Encounter& encounter, const StretchPlace& at, co
   const BodyPair& pair = bodies.pairs[encounter.pair];
   const Obstacle& obstacle = bodies.obstacles[pair.obstacle];
   const Mover mover = mover_of(bodies, pair.part);
-  Visit& visit = visits_.emplace_back(Visit{.place = {pair.obstacle, mover}, .reports_near = pair.reports_near});
+  Visit& visit = visits_.emplace_back(
+      Visit{.place = {pair.obstacle, mover}, .part = pair.part, .reports_near = pair.reports_near});
   visit.encounter = encounter;
   visit.is_rough = obstacle.body->core && !pair.core && bodies.parts[pair.part].of_spindle == removal::ToolPart::Cutter;
   visit.contact.id = encounter.is_contact() ? contact_with(obstacle.body->role) : "near-miss"_diag;
@@ -108,6 +109,7 @@ void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
   }
   episode.is_open = episode.has_touched = true;
   take_depth(contact.levels, {.line = at_.line,
+                              .part = touch.visit->part,
                               .depth = is_rough ? 0 : std::max(0.0, -touch.touch->distance),
                               .frame = at_.frame,
                               .is_in_inches = at_.is_in_inches});

@@ -59,6 +59,7 @@ class ContactLog {
   /// An encounter on the present stretch.
   struct Visit {
     ContactPlace place;
+    std::size_t part = 0;  ///< Among BodyPairs::parts.
     bool reports_near = false;
     bool is_rough = false;  ///< Another pair of both measures how deep a touch is (BodyPair::core).
     Contact contact;        ///< Without times and lines.

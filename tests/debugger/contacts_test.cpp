@@ -304,20 +304,20 @@ TEST_F(Surroundings, AreNotShownWithoutAScene) {
 /// In the condition of the filter, DEPTH is how deep the contact gets in the block.
 TEST_F(Surroundings, MayBeAConditionOfContacts) {
   launch(kProgram);
-  turn_on(client, "DEPTH > 4.5 && DEPTH < 10");
+  turn_on(client, "DEPTH > 4.5 && DEPTH < 9");
   const Moments moments = moments_of(client, 11);
   ASSERT_EQ(moments.on.size(), 1u);
   EXPECT_EQ(moments.on[0].line, 8);
   EXPECT_EQ(moments.on, moments.back);
 }
 
-/// A contact that goes on from the block before stops the run where it is deepest: here where line 9 ends.
+/// A contact that goes on from the block before stops the run where it is deepest, as line 9 ends.
 TEST_F(Surroundings, MayBeAConditionOfContactsThatGoOn) {
   launch(kProgram);
   turn_on(client, "DEPTH > 8 && DEPTH < 12");
   const Moments moments = moments_of(client, 11);
   ASSERT_EQ(moments.on.size(), 1u);
-  EXPECT_EQ(moments.on[0].line, 10);
+  EXPECT_EQ(moments.on[0].line, 9);
   EXPECT_EQ(moments.on, moments.back);
 }
 

@@ -159,6 +159,30 @@ TEST(ContactReports, TheFirstLineOfAMistakeTellsItsDeepestPlace) {
   EXPECT_NEAR(run.outcome.findings[0].finding.values[4], run.contacts[1].worst_time, 0.051);
 }
 
+/// The place is on the face that the tool has gone through, however deep it is below the middle.
+TEST(ContactReports, TheDeepestPlaceIsOnTheFaceThatTheToolWentThrough) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("plate", {-100, -100, 0}, {100, 100, 30});
+  shop.pin("post", {300, 0, 0}, geometry::Vec3::UnitZ(), 30, 60);
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X0 Y0 Z50\nG01 Z7 F1000\nG00 Z50\nX300\nG01 Z7\nG00 Z50\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 2u);
+  for (const Contact& each : run.contacts) {
+    EXPECT_NEAR(each.distance, -23, 0.03);
+    EXPECT_NEAR(each.point.z(), 30, 1e-6);
+  }
+}
+
+/// Whoever accepts that the cutter touches has not accepted that the holder does.
+TEST(ContactReports, AnotherPartThatTouchesIsToldThereAsWell) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.scene.nose.reset();
+  shop.box("clamp", {8, -50, -50}, {60, 50, 30});
+  EXPECT_EQ(findings_of(shop.run("M06 T101001\nG00 X-100 Y0 Z98\nX0\nG01 Z-20 F1000\nZ-31\nG00 Z98\nM02\n")),
+            (std::vector<std::string>{"4: 2 at 4", "5: 2 at 4"}));
+}
+
 /// What a head turns passes the gantry, which the ram below it cannot meet.
 TEST(ContactReports, WhatAHeadTurnsIsComparedWithTheGantry) {
   Shop shop(MachineKind::Head);
