@@ -804,6 +804,10 @@ void MaterialCheck::keep(Incident incident) {
 /// Whether an incident says what another one of the same moment says better: a tool that is too deep is so with all of
 /// its parts.
 static bool is_said_by(const Incident& each, const Incident& other) {
+  // The cutter removes in rapid what the shank would still meet: its contact ends on the way.
+  if (each.follows_body)
+    return other.kind == IncidentKind::BodyInMaterial && each.tool == other.tool && other.time <= each.time &&
+           other.end_line >= each.line;
   const bool is_meanwhile = each.tool == other.tool && each.time <= other.end_time && other.time <= each.end_time;
   if (!is_meanwhile) return false;
   // What a rapid meets later does not say what has begun before it.
@@ -815,8 +819,6 @@ static bool is_said_by(const Incident& each, const Incident& other) {
              (other.kind == IncidentKind::NearMaterial && other.part < each.part);
     case IncidentKind::EdgeTooShort:
       return other.kind == IncidentKind::BodyInMaterial || other.kind == IncidentKind::CutTooDeep || is_begun_by_rapid;
-    case IncidentKind::RapidInMaterial:
-      return each.follows_body && other.kind == IncidentKind::BodyInMaterial && other.time <= each.time;
     case IncidentKind::BodyInMaterial:
     case IncidentKind::CutTooDeep:
       return is_begun_by_rapid;
@@ -830,8 +832,10 @@ static void drop_said_twice(std::vector<Incident>& incidents) {
   double longest = 0;
   for (const Incident& each : all) longest = std::max(longest, each.end_time - each.time);
   std::erase_if(incidents, [&](const Incident& each) {
-    const auto first = std::partition_point(all.begin(), all.end(),
-                                            [&](const Incident& other) { return other.time < each.time - longest; });
+    const auto first =
+        each.follows_body ? all.begin() : std::partition_point(all.begin(), all.end(), [&](const Incident& other) {
+          return other.time < each.time - longest;
+        });
     for (auto other = first; other != all.end() && other->time <= each.end_time; ++other)
       if (is_said_by(each, *other)) return true;
     return false;

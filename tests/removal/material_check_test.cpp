@@ -217,6 +217,20 @@ TEST(Material, ShankAndHolderAreOneContact) {
   EXPECT_EQ(plunge.contacts.front().who.in(Language::English), "the holder of T101001");
 }
 
+TEST(Material, ARapidOutOfWhereTheShankIsBelongsToItsContact) {
+  Bench bench;
+  ToolBodies& tool = bench.scene.tools[Shop::kTool];
+  tool.cutter = Shop::body(solids::flat_body(10, 30));
+  const solids::StackRow shank{.height = 30, .lower_diameter = 20, .upper_diameter = 20};
+  tool.shank = Shop::body(solids::stacked_body({&shank, 1}, 30));
+  for (const char* const last_plunge : {"", "Z0\n"}) {
+    const VerifiedRun run =
+        bench.cut("G00 X350 Y150 Z60\nG01 Z5 F1000\nX370\n" + std::string(last_plunge) + "G00 Z60\n");
+    ASSERT_EQ(told(run).size(), 1u) << last_plunge;
+    EXPECT_EQ(told(run)[0].substr(0, 10), "E151 5 5.0") << last_plunge;
+  }
+}
+
 TEST(Material, HolderOverWhatIsCutAway) {
   // The same depth, where the block has been lowered before.
   EXPECT_EQ(told(Bench().cut(
