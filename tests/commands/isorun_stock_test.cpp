@@ -133,7 +133,10 @@ TEST_F(StockOfRuns, IsSeenThroughAWindow) {
   EXPECT_NEAR(window.at("removedVolume"), 40 * 10 * 8, 1e-6);
   EXPECT_NEAR(window.at("removedVolume").get<double>() + window.at("remainingVolume").get<double>(), 40 * 60 * 20,
               1e-6);
-  EXPECT_EQ(window.at("certificate").at("notVerified").at(0), "the material outside X80 to X120, Y20 to Y80");
+  EXPECT_EQ(
+      window.at("certificate").at("notVerified"),
+      json::parse(
+          R"(["the material outside X80 to X120, Y20 to Y80", "T101001 has no holder", "the spindle nose is not described"])"));
   // What is outside of the blank does not count.
   const json corner = verification({"--window", "-100,-100,20,30", "first.iso"});
   EXPECT_EQ(corner.at("removedVolume"), 0);

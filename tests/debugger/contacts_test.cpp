@@ -301,24 +301,20 @@ TEST_F(Surroundings, AreNotShownWithoutAScene) {
   EXPECT_EQ(client.evaluate("DEPTH >= 0"), "0");
 }
 
-/// In the condition of the filter, DEPTH is how deep the contact gets in the block.
+/// In the condition of the filter, DEPTH is how deep the contact gets in the block; one that goes on from the block
+/// before stops the run where it is deepest, as line 9 ends.
 TEST_F(Surroundings, MayBeAConditionOfContacts) {
-  launch(kProgram);
-  turn_on(client, "DEPTH > 4.5 && DEPTH < 9");
-  const Moments moments = moments_of(client, 11);
-  ASSERT_EQ(moments.on.size(), 1u);
-  EXPECT_EQ(moments.on[0].line, 8);
-  EXPECT_EQ(moments.on, moments.back);
-}
-
-/// A contact that goes on from the block before stops the run where it is deepest, as line 9 ends.
-TEST_F(Surroundings, MayBeAConditionOfContactsThatGoOn) {
-  launch(kProgram);
-  turn_on(client, "DEPTH > 8 && DEPTH < 12");
-  const Moments moments = moments_of(client, 11);
-  ASSERT_EQ(moments.on.size(), 1u);
-  EXPECT_EQ(moments.on[0].line, 9);
-  EXPECT_EQ(moments.on, moments.back);
+  for (const auto& [condition, line] :
+       {std::pair("DEPTH > 4.5 && DEPTH < 9", 8), std::pair("DEPTH > 8 && DEPTH < 12", 9)}) {
+    DebugClient another;
+    another.write("isocnc.json", kMachine);
+    another.launch(kProgram);
+    turn_on(another, condition);
+    const Moments moments = moments_of(another, 11);
+    ASSERT_EQ(moments.on.size(), 1u) << condition;
+    EXPECT_EQ(moments.on[0].line, line) << condition;
+    EXPECT_EQ(moments.on, moments.back) << condition;
+  }
 }
 
 TEST_F(Surroundings, CountInConditionsAndMessages) {
