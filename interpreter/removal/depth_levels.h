@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "interpreter/dialect/given_name.h"
 #include "interpreter/geometry/frame.h"
 
 namespace isocnc::removal {
@@ -15,20 +16,33 @@ struct DepthLevel {
   double depth = 0;           ///< The greatest one on the line, mm.
   geometry::Frame frame;      ///< In force there; in the machine frame.
   bool is_in_inches = false;  ///< G70 is in force there.
+
+  // Where this part is deepest, from the line on up to its next level.
+  double greatest = 0;                            ///< How deep, mm.
+  dialect::GivenName who;                         ///< The part.
+  std::size_t worst_line = 0;                     ///< From 0.
+  double worst_time = 0;                          ///< Seconds since the start of the run.
+  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Machine frame of the program, mm.
 };
 
-/// Takes the next depth of a contact, in the order of the run. Whoever accepts a contact on the line where it begins
-/// has not accepted that it is much deeper on a later line, or that the holder follows the cutter; rounded corners make
-/// a line a little deeper than another.
+/// Takes the next depth of a contact, where `greatest` is `depth`, in the order of the run. Whoever accepts a contact
+/// on the line where it begins has not accepted that it is much deeper on a later line, or that the holder follows the
+/// cutter; rounded corners make a line a little deeper than another.
 inline void take_depth(std::vector<DepthLevel>& levels, const DepthLevel& next) {
   constexpr double kMuchDeeper = 0.25;  // mm, or this part of the depth.
   const auto last =
       std::find_if(levels.rbegin(), levels.rend(), [&](const DepthLevel& each) { return each.part == next.part; });
-  if (last != levels.rend() && last->line == next.line) {
-    last->depth = std::max(last->depth, next.depth);
-  } else if (last == levels.rend() || next.depth > last->depth + kMuchDeeper * std::max(1.0, last->depth)) {
+  const bool is_on_line = last != levels.rend() && last->line == next.line;
+  if (last == levels.rend() || (!is_on_line && next.depth > last->depth + kMuchDeeper * std::max(1.0, last->depth))) {
     levels.push_back(next);
+    return;
   }
+  if (is_on_line) last->depth = std::max(last->depth, next.depth);
+  if (!(next.greatest > last->greatest)) return;
+  last->greatest = next.greatest;
+  last->worst_line = next.worst_line;
+  last->worst_time = next.worst_time;
+  last->point = next.point;
 }
 
 }  // namespace isocnc::removal

@@ -516,11 +516,18 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   const bool lies = is_lying(axis);
   const double deep = lies ? -lowest_along(path, axis) : outcome.depth;
   if (lies && !episode.lying_start) episode.lying_start = deep;
-  take_depth(incident.levels, {.line = stretch.line,
-                               .part = static_cast<std::size_t>(key.second),
-                               .depth = lies ? std::max(0.0, deep - *episode.lying_start) : deep,
-                               .frame = frames_[stretch.frame],
-                               .is_in_inches = stretch.is_in_inches});
+  const double depth = lies ? std::max(0.0, deep - *episode.lying_start) : deep;
+  // Of what stays near, the nearest place says all.
+  if (incident.levels.empty() || key.first != IncidentKind::NearMaterial)
+    take_depth(incident.levels, {.line = stretch.line,
+                                 .part = static_cast<std::size_t>(key.second),
+                                 .depth = depth,
+                                 .frame = frames_[stretch.frame],
+                                 .is_in_inches = stretch.is_in_inches,
+                                 .greatest = depth + forms_->skin(key.second),
+                                 .worst_line = stretch.line,
+                                 .worst_time = stretch.stretch.time_at(use.from),
+                                 .point = in_machine(outcome.point)});
   if (goes_on && !(deep > episode.deepest)) return;
   episode.deepest = deep;
   incident.part = key.second;

@@ -108,11 +108,17 @@ void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
     contact.end_time = touch.touch->last;
   }
   episode.is_open = episode.has_touched = true;
+  const double depth = is_rough ? 0 : std::max(0.0, -touch.touch->distance);
   take_depth(contact.levels, {.line = at_.line,
                               .part = touch.visit->part,
-                              .depth = is_rough ? 0 : std::max(0.0, -touch.touch->distance),
+                              .depth = depth,
                               .frame = at_.frame,
-                              .is_in_inches = at_.is_in_inches});
+                              .is_in_inches = at_.is_in_inches,
+                              .greatest = depth,
+                              .who = touch.visit->contact.who,
+                              .worst_line = at_.line,
+                              .worst_time = touch.touch->deepest_time,
+                              .point = touch.touch->point});
   if (!is_deeper) return;
   episode.is_rough = is_rough;
   contact.who = touch.visit->contact.who;
@@ -134,7 +140,7 @@ void ContactLog::take_near(Episode& episode, const Visit& visit) const {
   contact.point = encounter.point;
   contact.frame = at_.frame;
   contact.is_in_inches = at_.is_in_inches;
-  contact.levels = {{.line = at_.line, .frame = at_.frame, .is_in_inches = at_.is_in_inches}};
+  contact.levels = {{.line = at_.line, .frame = at_.frame, .is_in_inches = at_.is_in_inches, .who = contact.who}};
 }
 
 void ContactLog::close(Episode& episode) {

@@ -127,20 +127,28 @@ Contact contact_of(const removal::Incident& incident, const Scene& scene) {
                   .time = incident.time,
                   .end_time = incident.end_time,
                   .tool = incident.tool};
-  contact.who = part_name(incident.kind == IncidentKind::EdgeTooShort ? ToolPart::Cutter : incident.part,
-                          running::tool_name(incident.tool));
+  const bool is_of_edge = incident.kind == IncidentKind::EdgeTooShort;
+  const auto name = [&](ToolPart part) {
+    return part_name(is_of_edge ? ToolPart::Cutter : part, running::tool_name(incident.tool));
+  };
+  contact.who = name(incident.part);
   contact.whom = dialect::GivenName::of({"the material", "il materiale"});
   contact.distance = incident.kind == IncidentKind::NearMaterial ? incident.amount : -incident.amount;
   contact.point = incident.point;
   contact.frame = incident.frame;
   contact.is_in_inches = incident.is_in_inches;
   contact.levels = incident.levels;
+  for (removal::DepthLevel& level : contact.levels) {
+    level.who = name(static_cast<ToolPart>(level.part));
+    if (is_of_edge) level.greatest += incident.limit;
+  }
   if (contact.levels.empty())
-    contact.levels.push_back({.line = incident.line, .frame = incident.frame, .is_in_inches = incident.is_in_inches});
+    contact.levels.push_back(
+        {.line = incident.line, .frame = incident.frame, .is_in_inches = incident.is_in_inches, .who = contact.who});
   contact.worst_line = incident.levels.empty() ? incident.line : incident.worst_line;
   contact.worst_time = incident.levels.empty() ? incident.time : std::max(incident.time, incident.worst_time);
   contact.is_of_material = true;
-  contact.is_of_edge = incident.kind == IncidentKind::EdgeTooShort;
+  contact.is_of_edge = is_of_edge;
   contact.limit = incident.limit;
   contact.volume = incident.volume;
   contact.enough = incident.enough;

@@ -111,37 +111,69 @@ syntax::Finding finding_of(const Unverified& gap) {
 
 namespace {
 
-/// A line on which a contact is told, with the contact that is told there.
+/// A line on which a contact is told.
 struct ToldContact {
   const removal::DepthLevel* level = nullptr;
   const Contact* contact = nullptr;
-  const Contact* worst = nullptr;  ///< The deepest or nearest one of the same mistake from this line on.
+  double distance = 0;    ///< Of the contact, from the level on up to the next one of its part; as Contact's.
+  bool is_worst = false;  ///< Whether that is where the contact is worst.
+  std::size_t worst = 0;  ///< Index of that which is worst of the same mistake from this line on.
 };
 
 }  // namespace
+
+/// The level that holds the worst place of a contact.
+static const removal::DepthLevel& worst_level(const Contact& contact) {
+  const auto holds = [&](const removal::DepthLevel& level) {
+    return level.who == contact.who && level.line <= contact.worst_line;
+  };
+  const auto found = std::find_if(contact.levels.rbegin(), contact.levels.rend(), holds);
+  return found == contact.levels.rend() ? contact.levels.front() : *found;
+}
 
 /// Where findings about contacts stand, by line. Of one mistake the first one that is shown stands for all, so that
 /// each tells the worst of those from it on.
 static std::vector<ToldContact> told_contacts(const std::vector<Contact>& contacts) {
   std::vector<ToldContact> told;
-  for (const Contact& contact : contacts)
-    for (const removal::DepthLevel& level : contact.levels)
-      told.push_back({.level = &level, .contact = &contact, .worst = &contact});
+  for (const Contact& contact : contacts) {
+    const removal::DepthLevel& worst = worst_level(contact);
+    for (const removal::DepthLevel& level : contact.levels) {
+      const bool is_worst = &level == &worst;
+      told.push_back({.level = &level,
+                      .contact = &contact,
+                      .distance = is_worst ? contact.distance : -level.greatest,
+                      .is_worst = is_worst});
+    }
+  }
   std::stable_sort(told.begin(), told.end(),
                    [](const ToldContact& a, const ToldContact& b) { return a.level->line < b.level->line; });
-  std::map<std::int32_t, const Contact*> worst;
-  for (auto each = told.rbegin(); each != told.rend(); ++each) {
-    const Contact*& known = worst.try_emplace(each->contact->mistake, each->contact).first->second;
-    if (!(known->distance < each->contact->distance)) known = each->contact;
-    each->worst = known;
+  std::map<std::int32_t, std::size_t> worst;
+  for (std::size_t i = told.size(); i-- > 0;) {
+    std::size_t& known = worst.try_emplace(told[i].contact->mistake, i).first->second;
+    if (!(told[known].distance < told[i].distance)) known = i;
+    told[i].worst = known;
   }
   return told;
 }
 
+/// A contact as it is worst from a line on.
+static Contact shown_contact(const ToldContact& worst) {
+  Contact shown = *worst.contact;
+  if (worst.is_worst) return shown;
+  shown.who = worst.level->who;
+  shown.distance = worst.distance;
+  shown.worst_line = worst.level->worst_line;
+  shown.worst_time = worst.level->worst_time;
+  shown.point = worst.level->point;
+  // What the worst place is in may be of another line.
+  if (shown.id != "cuts-with-spindle-stopped"_diag) shown.shaped_by.reset();
+  return shown;
+}
+
 /// The finding about a contact on a line, without a span.
-static RunFinding finding_on(const ToldContact& told) {
+static RunFinding finding_on(const ToldContact& told, const ToldContact& worst) {
   const removal::DepthLevel& level = *told.level;
-  Contact shown = *told.worst;
+  Contact shown = shown_contact(worst);
   if (shown.enough) {
     const geometry::Vec3 place = shown.frame.to_inner(shown.point);
     shown.enough = level.frame.to_inner(shown.frame.to_outer({place.x(), place.y(), *shown.enough})).z();
@@ -161,8 +193,9 @@ static void add_findings(simulation::RunOutcome& outcome, const std::vector<Cont
   std::vector<RunFinding> found;
   std::int32_t mistakes = 0;
   for (const RunFinding& each : outcome.findings) mistakes = std::max(mistakes, each.mistake + 1);
-  for (const ToldContact& told : told_contacts(contacts)) {
-    found.push_back(finding_on(told));
+  const std::vector<ToldContact> told = told_contacts(contacts);
+  for (const ToldContact& each : told) {
+    found.push_back(finding_on(each, told[each.worst]));
     found.back().mistake += mistakes;
   }
   for (const Unverified& gap : certificate.gaps) found.push_back({.line = gap.line, .finding = finding_of(gap)});

@@ -217,6 +217,24 @@ TEST(Material, ShankAndHolderAreOneContact) {
   EXPECT_EQ(plunge.contacts.front().who.in(Language::English), "the holder of T101001");
 }
 
+TEST(Material, APartThatFollowsIsToldWithItsOwnDepth) {
+  Bench bench;
+  ToolBodies& tool = bench.scene.tools[Shop::kTool];
+  tool.cutter = Shop::body(solids::flat_body(10, 10));
+  const solids::StackRow shank{.height = 15, .lower_diameter = 12, .upper_diameter = 12};
+  tool.shank = Shop::body(solids::stacked_body({&shank, 1}, 10));
+  const solids::StackRow holder{.height = 75, .lower_diameter = 50, .upper_diameter = 50};
+  tool.holder = Shop::body(solids::stacked_body({&holder, 1}, 25));
+  // Across, the shank meets 13 mm; then the holder goes 0.5 mm down.
+  const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\nG01 Z17 F1000\nX370\nZ14.5\nG00 Z50\n");
+  Lines bodies;
+  for (const simulation::RunFinding& each : run.outcome.findings)
+    if (dialect::definition(each.finding.id).code == "E151")
+      bodies.push_back(fmt::format("{} {} {:.1f}", each.line + 1, each.finding.names[0].in(Language::English),
+                                   each.finding.values[0]));
+  EXPECT_EQ(bodies, (Lines{"5 the shank of T101001 13.0", "6 the holder of T101001 0.5"}));
+}
+
 TEST(Material, ARapidOutOfWhereTheShankIsBelongsToItsContact) {
   Bench bench;
   ToolBodies& tool = bench.scene.tools[Shop::kTool];

@@ -173,14 +173,18 @@ TEST(ContactReports, TheDeepestPlaceIsOnTheFaceThatTheToolWentThrough) {
   }
 }
 
-/// Whoever accepts that the cutter touches has not accepted that the holder does.
+/// Whoever accepts that the cutter touches has not accepted that the holder does, and learns how deep the holder is.
 TEST(ContactReports, AnotherPartThatTouchesIsToldThereAsWell) {
   Shop shop;
   shop.scene.clearance = 0;
   shop.scene.nose.reset();
   shop.box("clamp", {8, -50, -50}, {60, 50, 30});
-  EXPECT_EQ(findings_of(shop.run("M06 T101001\nG00 X-100 Y0 Z98\nX0\nG01 Z-20 F1000\nZ-31\nG00 Z98\nM02\n")),
-            (std::vector<std::string>{"4: 2 at 4", "5: 2 at 4"}));
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X-100 Y0 Z98\nX0\nG01 Z-20 F1000\nZ-31\nG00 Z98\nM02\n");
+  ASSERT_EQ(findings_of(run), (std::vector<std::string>{"4: 2 at 4", "5: 0.98 at 5"}));
+  const syntax::Finding& last = run.outcome.findings[1].finding;
+  EXPECT_EQ(last.names[0].in(Language::English), "the holder of T101001");
+  EXPECT_NEAR(last.values[3], 30, 0.01);
+  EXPECT_EQ(run.outcome.findings[0].finding.names[0].in(Language::English), "the cutter of T101001");
 }
 
 /// What a head turns passes the gantry, which the ram below it cannot meet.
