@@ -818,16 +818,19 @@ static bool is_said_by(const Incident& each, const Incident& other) {
   const bool is_meanwhile = each.tool == other.tool && each.time <= other.end_time && other.time <= each.end_time;
   if (!is_meanwhile) return false;
   // What a rapid meets later does not say what has begun before it.
-  const bool is_begun_by_rapid = other.kind == IncidentKind::RapidInMaterial && !other.follows_body &&
-                                 (other.time <= each.time || other.line == each.line);
+  const bool is_of_rapid =
+      other.kind == IncidentKind::RapidInMaterial && (other.time <= each.time || other.line == each.line);
+  const bool is_begun_by_rapid = is_of_rapid && !other.follows_body;
   switch (each.kind) {
     case IncidentKind::NearMaterial:
       return other.kind == IncidentKind::BodyInMaterial || other.kind == IncidentKind::RapidInMaterial ||
              (other.kind == IncidentKind::NearMaterial && other.part < each.part);
     case IncidentKind::EdgeTooShort:
       return other.kind == IncidentKind::BodyInMaterial || other.kind == IncidentKind::CutTooDeep || is_begun_by_rapid;
-    case IncidentKind::BodyInMaterial:
     case IncidentKind::CutTooDeep:
+      // Also one on the way out of where a shank is, which goes with that.
+      return is_of_rapid;
+    case IncidentKind::BodyInMaterial:
       return is_begun_by_rapid;
     default:
       return false;

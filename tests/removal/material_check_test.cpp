@@ -247,6 +247,15 @@ TEST(Material, ARapidOutOfWhereTheShankIsBelongsToItsContact) {
     ASSERT_EQ(told(run).size(), 1u) << last_plunge;
     EXPECT_EQ(told(run)[0].substr(0, 10), "E151 5 5.0") << last_plunge;
   }
+  // What the cutter takes on the way out is no other cut.
+  tool.max_depth = 10;
+  bench.scene.setup[0].shape = solids::Cuboid{.minimum = {0, 0, -60}, .maximum = {400, 300, 40}};
+  bench.scene.resolution = 0.25;
+  bench.machine.motion = simulation::TimedMachine().motion;
+  const Lines found = told(bench.cut("G00 X100 Y100 Z60\nG01 Z-22 F1000\nX120\nZ-22.5\nG00 Z60\n"));
+  ASSERT_EQ(found.size(), 2u) << fmt::format("{}", fmt::join(found, "\n"));
+  EXPECT_TRUE(found[0].starts_with("W157 4 "));
+  EXPECT_TRUE(found[1].starts_with("E151 4 ")) << found[1];
 }
 
 TEST(Material, HolderOverWhatIsCutAway) {
