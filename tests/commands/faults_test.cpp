@@ -85,7 +85,7 @@ TEST_P(ScarceMemory, IsReportedOrIsEnough) {
   folder.write("editor", editor_s_messages(short_moves(100'000)));
   folder.write("debugger", debugger_s_messages(folder.path("good.iso")));
   int failures = 0;
-  for (int kib = 8'000; kib < 70'000; kib = kib * 17 / 16) {
+  for (int kib = 8'000; kib < 70'000; kib = kib * 9 / 8) {
     const auto limited = [&](const std::string& command) {
       return shell("cd " + folder.path() + " && ulimit -v " + std::to_string(kib) + " && LC_ALL=C " ISOCNC_BIN_DIR "/" +
                    command + " > out 2> err");

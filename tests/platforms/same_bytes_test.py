@@ -24,6 +24,9 @@ COMMANDS = [
     ["isolint", "--no-config", "--unsafe-fixes", "--diff", "{files}"],
     ["isolint", "--no-config", "--statistics", "{folders}"],
     ["isofmt", "--no-config", "--diff", "{files}"],
+    # With the setups that the examples have.
+    ["isolint", "--verify", "--format", "json", "examples"],
+    ["isolint", "--verify", "--lang", "it", "examples"],
 ]
 RUN = ["isorun", "--no-config", "--trace", "-", "{file}"]
 COMPARE = ["isodiff", "--no-config", "--format", "json"]
