@@ -66,11 +66,16 @@ Clearance body_to(const RevolvedBody& body, const AxisPlacement& at, const Shape
   return nearest;
 }
 
+/// How deep the surface of a convex mesh is in the body says nothing of the mesh: there a touch is enough.
 Clearance body_to_surface(const RevolvedBody& body, const AxisPlacement& at, const Mesh& mesh, double sufficient) {
   Clearance nearest;
   for (const BodyPiece& piece : body.pieces()) {
     const PieceInPlace in_place = placed(piece, at);
-    detail::MeshSearch(mesh, in_place, sufficient).run(nearest);
+    detail::MeshSearch search(mesh, in_place, sufficient);
+    if (mesh.convex())
+      search.until_touch(nearest);
+    else
+      search.run(nearest);
   }
   return nearest;
 }
@@ -96,11 +101,10 @@ Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Mes
   // Apart from the surface, the body is on one side of it as a whole, and so is any point of it.
   if (nearest.lower > 0 && obstacle.encloses(placed(body.pieces().front(), at).core.middle()))
     nearest = detail::enclosed(nearest, sufficient, [&] { return body_to_surface(body, at, obstacle, kExact); });
-  if (!(nearest.upper < 0)) return nearest;
-  if (obstacle.convex()) {
+  if (obstacle.convex() && nearest.upper <= 0) {
     const Clearance found = body_in(body, at, detail::PlacedConvexMesh(obstacle, Placement::Identity()), nearest);
     nearest.lower = nearest.upper = found.upper;
-  } else if (obstacle.topology().is_closed()) {
+  } else if (nearest.upper < 0 && obstacle.topology().is_closed()) {
     detail::DeepPoints(obstacle, nearest).take(body, at);
   }
   return nearest;

@@ -71,18 +71,22 @@ MeshTopology topology_of(std::span<const Triangle> triangles, const std::vector<
   return topology;
 }
 
+/// Unit vectors that differ by less are the same: faces that were flat before their corners were rounded are.
+constexpr double kSameDirection = 1e-6;
+
 /// Adds a direction that is not known yet, but for its sign where that does not matter.
 bool add_direction(std::vector<Vec3>& known, const Vec3& direction, bool has_sign) {
-  constexpr double kSame = 1e-9;
   const bool is_known = std::any_of(known.begin(), known.end(), [&](const Vec3& each) {
-    return (each - direction).norm() <= kSame || (!has_sign && (each + direction).norm() <= kSame);
+    return (each - direction).norm() <= kSameDirection || (!has_sign && (each + direction).norm() <= kSameDirection);
   });
   if (!is_known) known.push_back(direction);
   return !is_known;
 }
 
-/// The solid that a closed mesh encloses, if no corner is above any of its faces.
-std::optional<ConvexSolid> convex_solid(std::span<const Triangle> triangles, const MeshTopology& topology) {
+/// The solid that a closed mesh encloses, if no corner is above any of its faces, but for what files round away: STL
+/// has single precision.
+std::optional<ConvexSolid> convex_solid(std::span<const Triangle> triangles, const MeshTopology& topology,
+                                        const std::vector<std::uint32_t>& corner_numbers) {
   ConvexSolid solid;
   std::vector<Vec3>& corners = solid.corners;
   BoundingBox box;
@@ -94,16 +98,28 @@ std::optional<ConvexSolid> convex_solid(std::span<const Triangle> triangles, con
   std::sort(corners.begin(), corners.end(), comes_before);
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   solid.middle = box.center();
-  const double flat = 1e-9 * box.sizes().norm();
-  for (const Triangle& triangle : triangles) {
+  const double farthest = std::max(box.max().cwiseAbs().maxCoeff(), box.min().cwiseAbs().maxCoeff());
+  const double flat = std::max(0.002, 1e-6 * farthest);  // mm
+  std::vector<Vec3> normals(triangles.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& triangle = triangles[i];
     const Vec3 area = triangle.area_vector();
     if (!(area.norm() > 0)) continue;
-    const Vec3 normal = area.normalized() * (topology.volume > 0 ? 1 : -1);
+    const Vec3 normal = normals[i] = area.normalized() * (topology.volume > 0 ? 1 : -1);
     const double height = triangle.highest(normal);
     if (std::any_of(corners.begin(), corners.end(), [&](const Vec3& each) { return normal.dot(each) > height + flat; }))
       return {};
     if (add_direction(solid.normals, normal, true)) solid.heights.push_back(height);
-    triangle.for_each_edge([&](const Vec3& edge) { add_direction(solid.edges, edge, false); });
+  }
+  const std::vector<detail::MeshEdge> edges = detail::sorted_edges(corner_numbers);
+  for (std::size_t first = 0, end = 0; first < edges.size(); first = end) {
+    end = detail::end_of_same(edges, first);
+    const std::uint32_t start = edges[first].start;
+    const bool is_flat =
+        end == first + 2 && (normals[start / 3] - normals[edges[first + 1].start / 3]).norm() <= kSameDirection;
+    const Triangle& triangle = triangles[start / 3];
+    const Vec3 edge = triangle.corners[start % 3 == 2 ? 0 : start % 3 + 1] - triangle.corners[start % 3];
+    if (!is_flat) add_direction(solid.edges, edge.normalized(), false);
   }
   return solid;
 }
@@ -154,7 +170,7 @@ Mesh::Mesh(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
   topology_ = topology_of(triangles_, corners);
   surface_points_ = points_of_surfaces(triangles_, corners);
   if (topology_.is_closed() && surface_points_.size() == 1 && triangles_.size() <= kMaxConvexTriangles)
-    convex_ = convex_solid(triangles_, topology_);
+    convex_ = convex_solid(triangles_, topology_, corners);
   build();
 }
 

@@ -32,7 +32,7 @@ struct ConvexSolid {
   std::vector<geometry::Vec3> corners;
   std::vector<geometry::Vec3> normals;  ///< Of the faces, outwards.
   std::vector<double> heights;          ///< Of each face along its normal, mm.
-  std::vector<geometry::Vec3> edges;    ///< Directions in which two faces meet.
+  std::vector<geometry::Vec3> edges;    ///< Directions in which two faces meet that are not in one plane.
   geometry::Vec3 middle = geometry::Vec3::Zero();
 };
 
@@ -44,7 +44,7 @@ class Mesh {
   static constexpr std::size_t kMaxTriangles = 1u << 30;
 
   /// Meshes of more triangles are not asked whether they are convex.
-  static constexpr std::size_t kMaxConvexTriangles = 256;
+  static constexpr std::size_t kMaxConvexTriangles = 1024;
 
   /// Corners are finite; at least one triangle, at most kMaxTriangles. Their order is not kept.
   explicit Mesh(std::vector<Triangle> triangles);
@@ -58,7 +58,7 @@ class Mesh {
 
   /// Whether a closed mesh encloses a point that is not on its surface. False for a mesh that is not closed.
   bool encloses(const geometry::Vec3& point) const;
-  /// Null unless the mesh is one closed convex surface of at most kMaxConvexTriangles triangles.
+  /// Null unless the mesh is one closed convex surface, to within 0.002 mm, of at most kMaxConvexTriangles triangles.
   const ConvexSolid* convex() const { return convex_ ? &*convex_ : nullptr; }
 
  private:

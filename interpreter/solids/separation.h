@@ -191,8 +191,8 @@ struct Overlap {
 
 /// How far two convex shapes that overlap must be moved apart. It is the shortest along the normals of both shapes,
 /// across an edge of each, and what a descent from the best of these finds. For boxes and triangles it is the shortest
-/// of all; that of round shapes may be shorter, never longer. `across_edges`: starts also across each edge, from one
-/// shape's middle to the other, as where a tilted cylinder lies on an edge.
+/// of all; that of round shapes may be shorter, never longer. `across_edges`: starts also across edges, from one
+/// shape's middle to the other, as where a tilted cylinder lies on an edge: the edges of the shortest of these ways.
 template <class A, class B>
 Overlap overlap(const A& a, const B& b, bool across_edges = false) {
   Overlap best;
@@ -227,14 +227,22 @@ Overlap overlap(const A& a, const B& b, bool across_edges = false) {
   if (across_edges) {
     const geometry::Vec3 between = b.nearest(a.middle()) - a.middle();
     const geometry::Vec3 middles = b.middle() - a.middle();
+    constexpr std::size_t kMaxStarts = 12;
+    std::array<Overlap, kMaxStarts> starts;
+    std::size_t count = 0;
+    const auto is_shorter = [](const Overlap& x, const Overlap& y) { return x.depth < y.depth; };
     b.for_each_edge([&](const geometry::Vec3& edge) {
       for (const geometry::Vec3& way : {between, middles}) {
         const geometry::Vec3 across = way - way.dot(edge) * edge;
         if (!(across.norm() > 1e-6)) continue;
         const geometry::Vec3 n = across.normalized();
-        descend({a.highest(n) - b.lowest(n), n});
+        const Overlap start{a.highest(n) - b.lowest(n), n};
+        Overlap& place =
+            count < kMaxStarts ? starts[count++] : *std::max_element(starts.begin(), starts.end(), is_shorter);
+        if (start.depth < place.depth) place = start;
       }
     });
+    for (std::size_t i = 0; i < count; ++i) descend(starts[i]);
   }
   best.depth = std::max(best.depth, 0.0);
   return best;

@@ -3,7 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include <Eigen/Geometry>
+
+#include "interpreter/geometry/frame.h"
 #include "scenes.h"
 
 namespace isocnc::solids {
@@ -96,6 +101,47 @@ TEST(Mesh, SplitsEqualTriangles) {
   const Mesh mesh(std::vector<Triangle>(10'000, Triangle{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}}));
   const RevolvedBody tool = scenes::body(flat_body(1, 10));
   EXPECT_NEAR(clearance(tool, {{0, 0, 2}, {0, 0, 1}}, mesh).lower, 2, 2e-6);
+}
+
+/// The corners as an STL file has them: in single precision.
+std::vector<Triangle> rounded_to_float(std::vector<Triangle> triangles, const geometry::Mat3& turn, const Vec3& shift) {
+  for (Triangle& triangle : triangles)
+    for (Vec3& corner : triangle.corners) corner = (turn * corner + shift).cast<float>().cast<double>();
+  return triangles;
+}
+
+TEST(Mesh, IsConvexAlsoWhereItsFileHasRoundedItsCorners) {
+  const geometry::Mat3 oblique =
+      (Eigen::AngleAxisd(0.35, Vec3::UnitZ()) * Eigen::AngleAxisd(0.35, Vec3::UnitX())).toRotationMatrix();
+  const std::vector<Triangle> box = rounded_to_float(scenes::box_triangles(kBrick), oblique, {1234.5, -987.6, 55.5});
+  EXPECT_NE(Mesh(box).convex(), nullptr);
+  // Not where a corner that faces meet in stands 0.05 mm deeper.
+  std::vector<Triangle> bent = box;
+  const Vec3 corner = bent.front().corners[0];
+  const Vec3 middle(1234.5, -987.6, 55.5);
+  for (Triangle& triangle : bent)
+    for (Vec3& each : triangle.corners)
+      if (each == corner) each += 0.05 * (middle - corner).normalized();
+  EXPECT_EQ(Mesh(bent).convex(), nullptr);
+}
+
+TEST(Mesh, IsConvexWithAsManySidesAsACylinderHas) {
+  constexpr int kSides = 96;
+  const auto rim = [](int i, double z) {
+    const double angle = 2 * std::numbers::pi * (i % kSides) / kSides;
+    return Vec3(40 * std::cos(angle), 40 * std::sin(angle), z);
+  };
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < kSides; ++i) {
+    triangles.push_back({{rim(i, 0), rim(i + 1, 0), rim(i + 1, 50)}});
+    triangles.push_back({{rim(i, 0), rim(i + 1, 50), rim(i, 50)}});
+    if (i < 2) continue;
+    triangles.push_back({{rim(0, 50), rim(i - 1, 50), rim(i, 50)}});
+    triangles.push_back({{rim(0, 0), rim(i, 0), rim(i - 1, 0)}});
+  }
+  for (Triangle& triangle : triangles)
+    for (Vec3& corner : triangle.corners) corner = corner.cast<float>().cast<double>();
+  EXPECT_NE(Mesh(triangles).convex(), nullptr);
 }
 
 /// A body within a closed mesh touches no triangle, and overlaps all the same.
