@@ -497,11 +497,17 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
                             .line = stretch.line,
                             .time = stretch.stretch.time_at(use.from),
                             .tool = code_},
+               .line_before = stretch.line,
                .begins_in_feed = stretch.is_feed,
                .first_stretch = number};
     if (key.first == IncidentKind::SpindleStopped) episode.incident.shaped_by = spindle_stopped_by_;
   }
   Incident& incident = episode.incident;
+  // On the way straight up, a body that does not cut is deepest where that begins.
+  const bool is_way_out = goes_on && is_body && stretch.length > 0 && stretch.rise > 0.999 * stretch.length;
+  if (goes_on && stretch.line != incident.end_line) episode.line_before = incident.end_line;
+  const std::size_t line = is_way_out ? episode.line_before : stretch.line;
+  const double time = is_way_out ? stretch.stretch.start : stretch.stretch.time_at(use.from);
   const auto is_of_part = [&](const FirstSweep& each) { return each.part == key.second; };
   if (number == episode.first_stretch &&
       std::none_of(episode.first_sweeps.begin(), episode.first_sweeps.end(), is_of_part))
@@ -510,23 +516,28 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   episode.last_way = stretch.way + stretch.length;
   incident.end_line = stretch.line;
   incident.end_time = stretch.stretch.time_at(use.to);
-  // Dexels do not measure along a tool that lies: there, how far it goes does.
+  // Dexels do not measure along a tool that lies: there, how far it goes does. It counts for bodies that do not cut as
+  // well: a motion meets what it passes alone, and a plunge in two motions is as deep as one.
   const SweepPath& path = sweeps_[sweep].path;
   const Vec3 axis = axis_of(path);
   const bool lies = is_lying(axis);
-  const double deep = lies ? -lowest_along(path, axis) : outcome.depth;
-  if (lies && !episode.lying_start) episode.lying_start = deep;
-  const double depth = lies ? std::max(0.0, deep - *episode.lying_start) : deep;
+  const double reach = -lowest_along(path, axis);
+  const double deep = lies ? reach : outcome.depth;
+  const PartStart first{.axis = axis, .reach = reach, .depth = lies ? 0 : deep};
+  const PartStart& start = episode.starts.try_emplace(key.second, first).first->second;
+  const bool is_comparable = lies || (is_body && start.axis.dot(axis) > 1 - 1e-9);
+  double depth = is_comparable ? std::max(0.0, start.depth + reach - start.reach) : 0;
+  if (!lies && !is_way_out) depth = std::max(depth, deep);
   // Of what stays near, the nearest place says all.
   if (incident.levels.empty() || key.first != IncidentKind::NearMaterial)
-    take_depth(incident.levels, {.line = stretch.line,
+    take_depth(incident.levels, {.line = line,
                                  .part = static_cast<std::size_t>(key.second),
                                  .depth = depth,
                                  .frame = frames_[stretch.frame],
                                  .is_in_inches = stretch.is_in_inches,
-                                 .greatest = depth + forms_->skin(key.second),
-                                 .worst_line = stretch.line,
-                                 .worst_time = stretch.stretch.time_at(use.from),
+                                 .greatest = (lies ? depth : deep) + forms_->skin(key.second),
+                                 .worst_line = line,
+                                 .worst_time = time,
                                  .point = in_machine(outcome.point)});
   if (goes_on && !(deep > episode.deepest)) return;
   episode.deepest = deep;
@@ -535,8 +546,8 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   incident.point = in_machine(outcome.point);
   incident.frame = frames_[stretch.frame];
   incident.is_in_inches = stretch.is_in_inches;
-  incident.worst_line = stretch.line;
-  incident.worst_time = stretch.stretch.time_at(use.from);
+  incident.worst_line = line;
+  incident.worst_time = time;
   episode.deepest_sweep = sweep;
 }
 

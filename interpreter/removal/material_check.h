@@ -134,15 +134,23 @@ class MaterialCheck {
     std::size_t sweep = 0;
   };
 
+  /// Where a part of the tool has been when an incident has met it first.
+  struct PartStart {
+    geometry::Vec3 axis = geometry::Vec3::UnitZ();  ///< Of the tool.
+    double reach = 0;                               ///< How far it went along its axis, mm.
+    double depth = 0;                               ///< How deep it was, mm.
+  };
+
   /// An incident that may go on.
   struct OpenIncident {
     Incident incident;
     std::size_t last_stretch = 0;  ///< Counted from the start of the run.
+    std::size_t line_before = 0;   ///< Where it was met before the line of that stretch; from 0.
     bool begins_in_feed = false;
-    std::size_t first_stretch = 0;             ///< Counted alike.
-    double last_way = 0;                       ///< Of the tip up to where it was met last, mm.
-    double deepest = 0;                        ///< Of the sweeps that have been compared, mm.
-    std::optional<double> lying_start;         ///< Where a tool that lies was first, along its axis; mm.
+    std::size_t first_stretch = 0;  ///< Counted alike.
+    double last_way = 0;            ///< Of the tip up to where it was met last, mm.
+    double deepest = 0;             ///< Of the sweeps that have been compared, mm.
+    std::map<ToolPart, PartStart> starts;
     std::vector<FirstSweep> first_sweeps;      ///< Of the present batch, where it begins there: one for each part.
     std::optional<double> first_touch;         ///< Of those that have been looked at, seconds.
     std::optional<std::size_t> deepest_sweep;  ///< Of the present batch, where it is worst there.

@@ -235,6 +235,28 @@ TEST(Material, APartThatFollowsIsToldWithItsOwnDepth) {
   EXPECT_EQ(bodies, (Lines{"5 the shank of T101001 13.0", "6 the holder of T101001 0.5"}));
 }
 
+/// A short shank meets on each motion what it passes: on the way up all that it has passed before.
+TEST(Material, AWayOutIsNoDeeperThanTheWayIn) {
+  Bench bench;
+  ToolBodies& tool = bench.scene.tools[Shop::kTool];
+  tool.cutter = Shop::body(solids::flat_body(3, 8));
+  const solids::StackRow shank{.height = 7, .lower_diameter = 12, .upper_diameter = 12};
+  tool.shank = Shop::body(solids::stacked_body({&shank, 1}, 8));
+  tool.holder.reset();
+  const auto lines = [&](const std::string& moves) {
+    const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\n" + moves + "G00 Z100\n");
+    Lines all;
+    for (const simulation::RunFinding& each : run.outcome.findings)
+      if (dialect::definition(each.finding.id).code == "E151")
+        all.push_back(fmt::format("{} {:.0f} at {}", each.line + 1, each.finding.values[0],
+                                  each.worst_line.value_or(each.line) + 1));
+    return all;
+  };
+  EXPECT_EQ(lines("G01 Z5 F1000\n"), Lines{"4 27 at 4"});
+  EXPECT_EQ(lines("G01 Z14 F1000\nZ5\n"), (Lines{"4 27 at 5", "5 27 at 5"}));
+  EXPECT_EQ(lines("G01 Z14 F1000\nZ5\nX360\n"), (Lines{"4 27 at 6", "5 27 at 6"}));
+}
+
 TEST(Material, ARapidOutOfWhereTheShankIsBelongsToItsContact) {
   Bench bench;
   ToolBodies& tool = bench.scene.tools[Shop::kTool];
