@@ -115,6 +115,40 @@ TEST(Documentation, NamesEveryMessageBeyondTheProtocols) {
   for (const std::string& name : own) EXPECT_NE(pages.find("`" + name + "`"), std::string::npos) << name;
 }
 
+/// The rows of the tables of docs/security.md.
+TEST(Documentation, EachPromiseOfSecurityHasItsTest) {
+  static const std::regex kPath("`(tests/[^`]*)`");
+  std::istringstream page(read("docs/security.md"));
+  std::size_t promises = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| ") || line == "| Promise | Test |") continue;
+    ++promises;
+    const std::string cell = line.substr(line.rfind(" | ", line.size() - 3));
+    std::size_t tests = 0;
+    for (std::sregex_iterator it(cell.begin(), cell.end(), kPath); it != std::sregex_iterator(); ++it, ++tests)
+      EXPECT_TRUE(fs::exists(kRoot / (*it)[1].str())) << line;
+    EXPECT_GT(tests, 0U) << line;
+  }
+  EXPECT_GT(promises, 20U);
+}
+
+/// What a package from a registry would run while it is installed, it could run as whoever builds.
+TEST(Documentation, NoScriptOfAnNpmPackageRuns) {
+  static const std::regex kInstall(R"re(npm\}?"?,? "?(ci|install|i)\b[^\n]*)re");
+  std::vector<fs::path> files;
+  for (const std::string folder : {"cmake", "scripts", ".github"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+  for (const std::string tests : {"clients", "playground", "vscode"}) files.push_back(kRoot / "tests" / tests / "run");
+  int count = 0;
+  for (const fs::path& file : files) {
+    const std::string text = read(file);
+    for (std::sregex_iterator it(text.begin(), text.end(), kInstall); it != std::sregex_iterator(); ++it, ++count)
+      EXPECT_NE(it->str().find("--ignore-scripts"), std::string::npos) << file << ": " << it->str();
+  }
+  EXPECT_GE(count, 8);
+}
+
 std::vector<fs::path> documents() {
   std::vector<fs::path> files;
   for (const std::string folder : {".", "docs", "docs/it", "bench", "examples/ci"})

@@ -302,6 +302,46 @@ test('a file that is dropped is opened, unless it is no text', async () => {
   assert.equal(readFileSync(await saved.path(), 'utf8'), '; caffè\r\nM02\r\n');
 });
 
+test('what is hostile in a link or a file is shown as text: no script runs, and nothing is fetched', async () => {
+  const markup = '<img src=/leak.png onerror="globalThis.isHit=1"><script>globalThis.isHit=1</script><a href="javascript:globalThis.isHit=1">a</a>';
+  const program = `${square.replace('M05\n', '')}; ${markup} ![i](/leak.png) [l](javascript:globalThis.isHit=1)\nX<b>1${markup}\nG01 X"${markup}"\n`;
+  const page = await open({ address: `${server.address}/playground/index.html`, program });
+  await drawn(page);
+  const asked = server.asked.length;
+  const isHarmless = async (what) => {
+    const [isHit, elements] = await page.evaluate(() => [
+      globalThis.isHit ?? 0,
+      [...document.querySelectorAll('img, iframe, object, embed, a[href^="javascript:"], script:not([src])')].map((each) => each.outerHTML),
+    ]);
+    assert.deepEqual([isHit, elements, server.asked.slice(asked)], [0, [], []], what);
+  };
+  assert.ok((await page.locator('.finding').count()) > 0);
+  await isHarmless('findings');
+  // The hover of a block whose finding quotes it.
+  await page.locator('.view-line', { hasText: 'X<b>1' }).first().getByText('<b>').first().hover();
+  await page.locator('.monaco-hover:not(.hidden) .monaco-hover-content').first().waitFor();
+  await isHarmless('hover');
+  await page.mouse.move(1, 1);
+  for (const end of [`#program=${markup}`, `#program=${encodeURIComponent(markup)}`, '#program=__proto__', `#program=${'A'.repeat(99_999)}`, `#${markup}`, '#program=', '#program=constructor&x=1']) {
+    await page.evaluate((hash) => (location.hash = hash), end);
+    await page.waitForTimeout(50);
+    await isHarmless(end.slice(0, 40));
+    assert.equal(await text(page), program);
+  }
+  await page.evaluate(
+    ([name, content]) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([content], name));
+      document.body.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+    },
+    [`${markup}.iso`, `${square}; ${markup}\n`],
+  );
+  await shows(page, `${square}; ${markup}\n`);
+  assert.equal(await page.locator('#name').innerText(), `${markup}.iso`);
+  await isHarmless('a dropped file');
+  await page.close();
+});
+
 test('examples are those of the repository', async () => {
   const page = await open();
   const count = await page.locator('#examples optgroup option').count();
