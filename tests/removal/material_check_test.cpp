@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -29,10 +30,31 @@ struct Bench : Shop {
     scene.resolution = 0.5;
   }
 
+  /// The tool with a shank above its cutter, and above that its holder.
+  void set_tool(double radius, double cutter, const solids::StackRow& shank) {
+    ToolBodies& tool = scene.tools[kTool];
+    tool.cutter = body(solids::flat_body(radius, cutter));
+    tool.shank = body(solids::stacked_body({&shank, 1}, cutter));
+    set_holder(cutter + shank.height);
+  }
+  /// The holder, from a height above the tip to the spindle.
+  void set_holder(double from) {
+    const solids::StackRow holder{.height = 100 - from, .lower_diameter = 50, .upper_diameter = 50};
+    scene.tools[kTool].holder = body(solids::stacked_body({&holder, 1}, from));
+  }
+
   VerifiedRun cut(const std::string& moves, WorkTogether together = {}) const {
     return run("M06 T101001\nS12000 M03\n" + moves + "M02\n", std::move(together));
   }
 };
+
+/// What a run shows of a code.
+std::vector<simulation::RunFinding> findings_with(const VerifiedRun& run, std::string_view code) {
+  std::vector<simulation::RunFinding> found;
+  for (const simulation::RunFinding& each : run.outcome.findings)
+    if (dialect::definition(each.finding.id).code == code) found.push_back(each);
+  return found;
+}
 
 /// `E150 5 40.00 @ 350 150 30`: code, line from 1, depth or distance, place in the frame in force.
 std::vector<std::string> told(const VerifiedRun& run) {
@@ -184,24 +206,17 @@ TEST(Material, HolderInIt) {
 TEST(Material, AHolderThatGoesMuchDeeperIsToldThereAsWell) {
   Bench bench;
   bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::flat_body(10, 20));
-  const solids::StackRow holder{.height = 80, .lower_diameter = 50, .upper_diameter = 50};
-  bench.scene.tools[Shop::kTool].holder = Shop::body(solids::stacked_body({&holder, 1}, 20));
+  bench.set_holder(20);
   const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\nG01 Z19.8 F1000\nX352 Z19.7\nX354 Z10\nX356\nG00 Z50\n");
   std::vector<std::size_t> lines;
-  for (const simulation::RunFinding& each : run.outcome.findings)
-    if (dialect::definition(each.finding.id).code == "E151") lines.push_back(each.line + 1);
+  for (const simulation::RunFinding& each : findings_with(run, "E151")) lines.push_back(each.line + 1);
   EXPECT_EQ(lines, (std::vector<std::size_t>{4, 6}));
 }
 
 /// From the first touch of any of them to the last; the deepest is named.
 TEST(Material, ShankAndHolderAreOneContact) {
   Bench bench;
-  ToolBodies& tool = bench.scene.tools[Shop::kTool];
-  tool.cutter = Shop::body(solids::flat_body(10, 10));
-  const solids::StackRow shank{.height = 15, .lower_diameter = 12, .upper_diameter = 12};
-  tool.shank = Shop::body(solids::stacked_body({&shank, 1}, 10));
-  const solids::StackRow holder{.height = 75, .lower_diameter = 50, .upper_diameter = 50};
-  tool.holder = Shop::body(solids::stacked_body({&holder, 1}, 25));
+  bench.set_tool(10, 10, {.height = 15, .lower_diameter = 12, .upper_diameter = 12});
   // Down, the holder goes 3 mm deep; across, the shank meets the 15 mm between cutter and holder.
   const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\nG01 Z12 F1000\nX370\nG00 Z50\n");
   const auto of_body = std::find_if(run.contacts.begin(), run.contacts.end(),
@@ -219,37 +234,27 @@ TEST(Material, ShankAndHolderAreOneContact) {
 
 TEST(Material, APartThatFollowsIsToldWithItsOwnDepth) {
   Bench bench;
-  ToolBodies& tool = bench.scene.tools[Shop::kTool];
-  tool.cutter = Shop::body(solids::flat_body(10, 10));
-  const solids::StackRow shank{.height = 15, .lower_diameter = 12, .upper_diameter = 12};
-  tool.shank = Shop::body(solids::stacked_body({&shank, 1}, 10));
-  const solids::StackRow holder{.height = 75, .lower_diameter = 50, .upper_diameter = 50};
-  tool.holder = Shop::body(solids::stacked_body({&holder, 1}, 25));
+  bench.set_tool(10, 10, {.height = 15, .lower_diameter = 12, .upper_diameter = 12});
   // Across, the shank meets 13 mm; then the holder goes 0.5 mm down.
   const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\nG01 Z17 F1000\nX370\nZ14.5\nG00 Z50\n");
   Lines bodies;
-  for (const simulation::RunFinding& each : run.outcome.findings)
-    if (dialect::definition(each.finding.id).code == "E151")
-      bodies.push_back(fmt::format("{} {} {:.1f}", each.line + 1, each.finding.names[0].in(Language::English),
-                                   each.finding.values[0]));
+  for (const simulation::RunFinding& each : findings_with(run, "E151"))
+    bodies.push_back(fmt::format("{} {} {:.1f}", each.line + 1, each.finding.names[0].in(Language::English),
+                                 each.finding.values[0]));
   EXPECT_EQ(bodies, (Lines{"5 the shank of T101001 13.0", "6 the holder of T101001 0.5"}));
 }
 
 /// A short shank meets on each motion what it passes: on the way up all that it has passed before.
 TEST(Material, AWayOutIsNoDeeperThanTheWayIn) {
   Bench bench;
-  ToolBodies& tool = bench.scene.tools[Shop::kTool];
-  tool.cutter = Shop::body(solids::flat_body(3, 8));
-  const solids::StackRow shank{.height = 7, .lower_diameter = 12, .upper_diameter = 12};
-  tool.shank = Shop::body(solids::stacked_body({&shank, 1}, 8));
-  tool.holder.reset();
+  bench.set_tool(3, 8, {.height = 7, .lower_diameter = 12, .upper_diameter = 12});
+  bench.scene.tools[Shop::kTool].holder.reset();
   const auto lines = [&](const std::string& moves) {
     const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\n" + moves + "G00 Z100\n");
     Lines all;
-    for (const simulation::RunFinding& each : run.outcome.findings)
-      if (dialect::definition(each.finding.id).code == "E151")
-        all.push_back(fmt::format("{} {:.0f} at {}", each.line + 1, each.finding.values[0],
-                                  each.worst_line.value_or(each.line) + 1));
+    for (const simulation::RunFinding& each : findings_with(run, "E151"))
+      all.push_back(fmt::format("{} {:.0f} at {}", each.line + 1, each.finding.values[0],
+                                each.worst_line.value_or(each.line) + 1));
     return all;
   };
   EXPECT_EQ(lines("G01 Z5 F1000\n"), Lines{"4 27 at 4"});
@@ -259,10 +264,7 @@ TEST(Material, AWayOutIsNoDeeperThanTheWayIn) {
 
 TEST(Material, ARapidOutOfWhereTheShankIsBelongsToItsContact) {
   Bench bench;
-  ToolBodies& tool = bench.scene.tools[Shop::kTool];
-  tool.cutter = Shop::body(solids::flat_body(10, 30));
-  const solids::StackRow shank{.height = 30, .lower_diameter = 20, .upper_diameter = 20};
-  tool.shank = Shop::body(solids::stacked_body({&shank, 1}, 30));
+  bench.set_tool(10, 30, {.height = 30, .lower_diameter = 20, .upper_diameter = 20});
   for (const char* const last_plunge : {"", "Z0\n"}) {
     const VerifiedRun run =
         bench.cut("G00 X350 Y150 Z60\nG01 Z5 F1000\nX370\n" + std::string(last_plunge) + "G00 Z60\n");
@@ -270,7 +272,7 @@ TEST(Material, ARapidOutOfWhereTheShankIsBelongsToItsContact) {
     EXPECT_EQ(told(run)[0].substr(0, 10), "E151 5 5.0") << last_plunge;
   }
   // What the cutter takes on the way out is no other cut.
-  tool.max_depth = 10;
+  bench.scene.tools[Shop::kTool].max_depth = 10;
   bench.scene.setup[0].shape = solids::Cuboid{.minimum = {0, 0, -60}, .maximum = {400, 300, 40}};
   bench.scene.resolution = 0.25;
   bench.machine.motion = simulation::TimedMachine().motion;
