@@ -66,16 +66,11 @@ Clearance body_to(const RevolvedBody& body, const AxisPlacement& at, const Shape
   return nearest;
 }
 
-/// How deep the surface of a convex mesh is in the body says nothing of the mesh: there a touch is enough.
 Clearance body_to_surface(const RevolvedBody& body, const AxisPlacement& at, const Mesh& mesh, double sufficient) {
   Clearance nearest;
   for (const BodyPiece& piece : body.pieces()) {
     const PieceInPlace in_place = placed(piece, at);
-    detail::MeshSearch search(mesh, in_place, sufficient);
-    if (mesh.convex())
-      search.until_touch(nearest);
-    else
-      search.run(nearest);
+    detail::MeshSearch(mesh, in_place, sufficient).run(nearest);
   }
   return nearest;
 }

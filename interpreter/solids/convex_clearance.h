@@ -117,8 +117,9 @@ class MeshSearch {
   MeshSearch(const Mesh& mesh, const RoundedShape<Core>& body, double sufficient)
       : mesh_(mesh), body_(body), sufficient_(sufficient) {}
 
-  /// Adds what the mesh's surface is to the shape.
-  void run(Clearance& nearest) { walk(nearest, -kUnbounded); }
+  /// Adds what the mesh's surface is to the shape; of a convex mesh, ends where they are found to touch: how deep its
+  /// surface is in the shape says nothing of the solid.
+  void run(Clearance& nearest) { walk(nearest, mesh_.convex() ? 0 : -kUnbounded); }
   /// The same, but ends where they are found to touch.
   void until_touch(Clearance& nearest) { walk(nearest, 0); }
 

@@ -52,7 +52,7 @@ Clearance convex_to_mesh(const detail::RoundedShape<Convex>& body, const Mesh& m
     return nearest;
   };
   Clearance nearest = to_surface(sufficient);
-  if (nearest.upper < 0 && mesh.convex()) {
+  if (nearest.upper <= 0 && mesh.convex()) {
     const detail::PlacedConvexMesh solid(mesh, Placement::Identity());
     nearest.lower = nearest.upper = -(overlap(body.core, solid).depth + body.rounding);
   }
