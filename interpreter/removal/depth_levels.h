@@ -9,6 +9,14 @@
 
 namespace isocnc::removal {
 
+/// Where a part of what is in contact is deepest.
+struct DeepestPlace {
+  double depth = 0;                               ///< mm.
+  std::size_t line = 0;                           ///< From 0.
+  double time = 0;                                ///< Seconds since the start of the run.
+  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Machine frame of the program, mm.
+};
+
 /// A line on which a part of what is in contact goes much deeper than on all lines before, or begins to touch.
 struct DepthLevel {
   std::size_t line = 0;       ///< From 0.
@@ -16,16 +24,11 @@ struct DepthLevel {
   double depth = 0;           ///< The greatest one on the line, mm.
   geometry::Frame frame;      ///< In force there; in the machine frame.
   bool is_in_inches = false;  ///< G70 is in force there.
-
-  // Where this part is deepest, from the line on up to its next level.
-  double greatest = 0;                            ///< How deep, mm.
-  dialect::GivenName who;                         ///< The part.
-  std::size_t worst_line = 0;                     ///< From 0.
-  double worst_time = 0;                          ///< Seconds since the start of the run.
-  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Machine frame of the program, mm.
+  dialect::GivenName who;     ///< The part.
+  DeepestPlace deepest;       ///< From the line on up to the part's next level.
 };
 
-/// Takes the next depth of a contact, where `greatest` is `depth`, in the order of the run. Whoever accepts a contact
+/// Takes the next depth of a contact, whose deepest place is there, in the order of the run. Whoever accepts a contact
 /// on the line where it begins has not accepted that it is much deeper on a later line, or that the holder follows the
 /// cutter; rounded corners make a line a little deeper than another.
 inline void take_depth(std::vector<DepthLevel>& levels, const DepthLevel& next) {
@@ -38,11 +41,7 @@ inline void take_depth(std::vector<DepthLevel>& levels, const DepthLevel& next) 
     return;
   }
   if (is_on_line) last->depth = std::max(last->depth, next.depth);
-  if (!(next.greatest > last->greatest)) return;
-  last->greatest = next.greatest;
-  last->worst_line = next.worst_line;
-  last->worst_time = next.worst_time;
-  last->point = next.point;
+  if (next.deepest.depth > last->deepest.depth) last->deepest = next.deepest;
 }
 
 }  // namespace isocnc::removal

@@ -535,10 +535,10 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
                                  .depth = depth,
                                  .frame = frames_[stretch.frame],
                                  .is_in_inches = stretch.is_in_inches,
-                                 .greatest = (lies ? depth : deep) + forms_->skin(key.second),
-                                 .worst_line = line,
-                                 .worst_time = time,
-                                 .point = in_machine(outcome.point)});
+                                 .deepest = {.depth = (lies ? depth : deep) + forms_->skin(key.second),
+                                             .line = line,
+                                             .time = time,
+                                             .point = in_machine(outcome.point)}});
   if (goes_on && !(deep > episode.deepest)) return;
   episode.deepest = deep;
   incident.part = key.second;

@@ -109,16 +109,15 @@ void ContactLog::take_touch(Episode& episode, const VisitTouch& touch) const {
   }
   episode.is_open = episode.has_touched = true;
   const double depth = is_rough ? 0 : std::max(0.0, -touch.touch->distance);
-  take_depth(contact.levels, {.line = at_.line,
-                              .part = touch.visit->part,
-                              .depth = depth,
-                              .frame = at_.frame,
-                              .is_in_inches = at_.is_in_inches,
-                              .greatest = depth,
-                              .who = touch.visit->contact.who,
-                              .worst_line = at_.line,
-                              .worst_time = touch.touch->deepest_time,
-                              .point = touch.touch->point});
+  take_depth(
+      contact.levels,
+      {.line = at_.line,
+       .part = touch.visit->part,
+       .depth = depth,
+       .frame = at_.frame,
+       .is_in_inches = at_.is_in_inches,
+       .who = touch.visit->contact.who,
+       .deepest = {.depth = depth, .line = at_.line, .time = touch.touch->deepest_time, .point = touch.touch->point}});
   if (!is_deeper) return;
   episode.is_rough = is_rough;
   contact.who = touch.visit->contact.who;

@@ -140,7 +140,7 @@ Contact contact_of(const removal::Incident& incident, const Scene& scene) {
   contact.levels = incident.levels;
   for (removal::DepthLevel& level : contact.levels) {
     level.who = name(static_cast<ToolPart>(level.part));
-    if (is_of_edge) level.greatest += incident.limit;
+    if (is_of_edge) level.deepest.depth += incident.limit;
   }
   if (contact.levels.empty())
     contact.levels.push_back(

@@ -141,7 +141,7 @@ static std::vector<ToldContact> told_contacts(const std::vector<Contact>& contac
       const bool is_worst = &level == &worst;
       told.push_back({.level = &level,
                       .contact = &contact,
-                      .distance = is_worst ? contact.distance : -level.greatest,
+                      .distance = is_worst ? contact.distance : -level.deepest.depth,
                       .is_worst = is_worst});
     }
   }
@@ -162,9 +162,9 @@ static Contact shown_contact(const ToldContact& worst) {
   if (worst.is_worst) return shown;
   shown.who = worst.level->who;
   shown.distance = worst.distance;
-  shown.worst_line = worst.level->worst_line;
-  shown.worst_time = worst.level->worst_time;
-  shown.point = worst.level->point;
+  shown.worst_line = worst.level->deepest.line;
+  shown.worst_time = worst.level->deepest.time;
+  shown.point = worst.level->deepest.point;
   // What the worst place is in may be of another line.
   if (shown.id != "cuts-with-spindle-stopped"_diag) shown.shaped_by.reset();
   return shown;
