@@ -91,7 +91,8 @@ void MaterialHistory::feed(MaterialCheck& check, const BlockRecord& record, doub
     if (const auto* const tool = std::get_if<running::ToolEvent>(&piece.timed.event.what)) {
       if (piece.end() > until) break;
       const verification::MountedTool mounted = verification::mounted_tool(scene_, machine_, tool->tool);
-      check.mount(tool->tool, verification::cutting_tool(scene_, mounted), piece.timed.event, piece.end(), frame);
+      check.mount(tool->tool, verification::cutting_tool(scene_, mounted), piece.timed.event, piece.end(), frame,
+                  piece.timed.ends_at_known_place);
     }
     if (!piece.stretch) continue;
     take_events(false);

@@ -47,13 +47,13 @@ void Surroundings::forget_from(std::uint64_t blocks) {
   if (material_) material_->forget_from(blocks);
 }
 
-const BodyPairs& Surroundings::bodies_with(const execution::ToolCode& tool,
+const BodyPairs& Surroundings::bodies_with(const execution::ToolCode& tool, bool is_place_known,
                                            const simulation::TimedMachine& machine) const {
-  const auto known = bodies_.find(tool);
+  const std::pair key(tool, is_place_known);
+  const auto known = bodies_.find(key);
   if (known != bodies_.end()) return known->second;
-  return bodies_
-      .emplace(tool, verification::pairs_of(*scene(), machine.motion.kinematics,
-                                            verification::mounted_tool(*scene(), machine, tool), origin()))
+  const verification::MountedTool mounted = verification::mounted_tool(*scene(), machine, tool, is_place_known);
+  return bodies_.emplace(key, verification::pairs_of(*scene(), machine.motion.kinematics, mounted, origin()))
       .first->second;
 }
 
@@ -61,26 +61,33 @@ const std::vector<Neighbor>& Surroundings::neighbors_of(const Simulation& simula
   static const std::vector<Neighbor> kNone;
   if (!are_known()) return kNone;
   const execution::ToolCode& tool = simulation.tool();
+  const bool is_place_known = simulation.is_place_known();
   const kinematics::Coordinates joints = simulation.sample().joints;
-  if (!last_ || last_->tool != tool || last_->joints != joints)
+  if (!last_ || last_->tool != tool || last_->is_place_known != is_place_known || last_->joints != joints)
     last_ = {.tool = tool,
+             .is_place_known = is_place_known,
              .joints = joints,
-             .neighbors = verification::neighbors_at(bodies_with(tool, simulation.machine()),
+             .neighbors = verification::neighbors_at(bodies_with(tool, is_place_known, simulation.machine()),
                                                      simulation.machine().motion.kinematics, joints)};
   return last_->neighbors;
 }
 
 static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Whether it is known where the tool is: whether it has a length, and where the machine is.
+static bool is_tool_placed(const Simulation& simulation) {
+  return simulation.is_place_known() && simulation.machine().length_of(simulation.tool()).is_known;
+}
+
 double Surroundings::clearance_of(const Simulation& simulation) const {
-  if (!are_known()) return kUnknown;
+  if (!are_known() || !is_tool_placed(simulation)) return kUnknown;
   double clearance = std::numeric_limits<double>::infinity();
   for (const Neighbor& each : neighbors_of(simulation)) clearance = std::min(clearance, each.clearance);
   return clearance;
 }
 
 double Surroundings::depth_of(const Simulation& simulation) const {
-  if (!are_known()) return kUnknown;
+  if (!are_known() || !is_tool_placed(simulation)) return kUnknown;
   const std::vector<Neighbor>& neighbors = neighbors_of(simulation);
   return neighbors.empty() ? 0 : std::max(0.0, -neighbors.front().distance);
 }
@@ -89,7 +96,11 @@ double Surroundings::depth_of(const Simulation& simulation) const {
 class BlockPass {
  public:
   BlockPass(const Surroundings& surroundings, const Surroundings::BlockSearch& wanted, const Simulation& before)
-      : surroundings_(surroundings), wanted_(wanted), machine_(before.machine()), tool_(before.tool()) {
+      : surroundings_(surroundings),
+        wanted_(wanted),
+        machine_(before.machine()),
+        tool_(before.tool()),
+        is_place_known_(before.is_place_known()) {
     if (const Stretch* const stretch = before.stretch_before()) stretch_before_ = *stretch;
     for (const SurroundingsLimit& limit : wanted.limits)
       was_beyond_.push_back(limit.is_of_material() || limit.is_beyond(surroundings.neighbors_of(before)));
@@ -97,13 +108,13 @@ class BlockPass {
 
   void take(const RecordedPiece& piece) {
     if (piece.stretch) {
+      if (piece.timed.is_at_known_place() != is_place_known_) change_place(piece.timed.is_at_known_place());
       stretches_.push_back(*piece.stretch);
       lines_.push_back(piece.timed.event.line);
     } else if (const auto* const change = std::get_if<running::ToolEvent>(&piece.timed.event.what)) {
-      examine();
+      change_place(piece.timed.ends_at_known_place);
       tool_ = change->tool;
       changes_tool_ = true;
-      stretch_before_.reset();
     }
   }
 
@@ -120,9 +131,16 @@ class BlockPass {
  private:
   static constexpr std::size_t kBefore = std::numeric_limits<std::size_t>::max();
 
+  /// From here on other bodies are compared: what has been touched before counts no more.
+  void change_place(bool is_known) {
+    examine();
+    is_place_known_ = is_known;
+    stretch_before_.reset();
+  }
+
   void examine() {
     if (stretches_.empty()) return;
-    const BodyPairs& bodies = surroundings_.bodies_with(tool_, machine_);
+    const BodyPairs& bodies = surroundings_.bodies_with(tool_, is_place_known_, machine_);
     if (wanted_.contacts) find_contacts(bodies);
     for (const Stretch& stretch : stretches_)
       for (std::size_t i = 0; i < wanted_.limits.size(); ++i)
@@ -176,6 +194,7 @@ class BlockPass {
   const Surroundings::BlockSearch& wanted_;
   const simulation::TimedMachine& machine_;
   execution::ToolCode tool_;
+  bool is_place_known_;
   std::optional<Stretch> stretch_before_;
   std::vector<bool> was_beyond_;  ///< Each limit, at the start.
   bool changes_tool_ = false;

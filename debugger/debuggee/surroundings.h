@@ -41,9 +41,9 @@ class Surroundings {
   const std::vector<verification::Neighbor>& neighbors_of(const simulation::Simulation& simulation) const;
 
   /// The smallest distance of what should stay away from an obstacle, mm; infinite if nothing should, NaN without a
-  /// scene.
+  /// scene and where it is not known where the tool is.
   double clearance_of(const simulation::Simulation& simulation) const;
-  /// How deep the machine is in an obstacle, mm; 0 if it is in none, NaN without a scene.
+  /// How deep the machine is in an obstacle, mm; 0 if it is in none, NaN as above.
   double depth_of(const simulation::Simulation& simulation) const;
 
   /// Whether there is a blank to be cut.
@@ -80,6 +80,7 @@ class Surroundings {
   /// The obstacles around a pose of the machine.
   struct KnownPose {
     execution::ToolCode tool;
+    bool is_place_known = true;
     kinematics::Coordinates joints;
     std::vector<verification::Neighbor> neighbors;
   };
@@ -87,7 +88,7 @@ class Surroundings {
   const verification::Scene* scene() const;
   const geometry::Vec3& origin() const;
   const std::optional<removal::Workpiece>& workpiece() const;
-  const verification::BodyPairs& bodies_with(const execution::ToolCode& tool,
+  const verification::BodyPairs& bodies_with(const execution::ToolCode& tool, bool is_place_known,
                                              const simulation::TimedMachine& machine) const;
 
   const Debuggee& debuggee_;
@@ -95,7 +96,7 @@ class Surroundings {
   FindOrigin find_origin_;
   mutable std::optional<std::shared_ptr<const verification::Scene>> scene_;  ///< None before it has been loaded.
   mutable std::optional<geometry::Vec3> origin_;                             ///< None before it has been found.
-  mutable std::map<execution::ToolCode, verification::BodyPairs> bodies_;
+  mutable std::map<std::pair<execution::ToolCode, bool>, verification::BodyPairs> bodies_;  ///< As for bodies_with().
   mutable std::optional<KnownPose> last_;
   mutable std::optional<std::optional<removal::Workpiece>> workpiece_;  ///< None before it has been asked for.
   mutable std::optional<MaterialHistory> material_;                     ///< None before it has been asked for.

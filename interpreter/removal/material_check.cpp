@@ -55,7 +55,7 @@ MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine
       greatest_skin_(skin_) {}
 
 void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& tool, const running::Event& event,
-                          double time, const geometry::Frame& frame) {
+                          double time, const geometry::Frame& frame, bool is_place_known) {
   cut_waiting();
   close_all();
   if (!by_line_.empty()) look_for_loose_pieces();
@@ -63,7 +63,7 @@ void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& to
   tool_.reset();
   // A wall of a cut is known to within a spacing.
   form(tool);
-  stand(event, time, frame);
+  if (is_place_known) stand(event, time, frame);
 }
 
 /// Makes the bodies of the mounted tool, while nothing waits.
@@ -114,7 +114,7 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::
                               const geometry::Frame& frame, double from, double to) {
   last_path_ = stretch.path;
   last_place_ = to;
-  if (!forms_ || !event.move) return;
+  if (!forms_ || !event.move || !event.is_at_known_place()) return;
   if (!has_turned_ && turns_axis(machine_.motion.kinematics, stretch.path)) {
     cut_waiting();
     has_turned_ = true;

@@ -33,10 +33,11 @@ class MaterialCheck {
   void watch(Watcher watcher) { watcher_ = std::move(watcher); }
 
   /// Another tool is mounted, by an event, at a time, s, with a frame in force. What it is in where it is mounted is
-  /// found there.
+  /// found there, if it is known where that is.
   void mount(const execution::ToolCode& code, const CuttingTool& tool, const running::Event& event, double time,
-             const geometry::Frame& frame);
-  /// Takes a stretch of motion, with its event and the frame in force.
+             const geometry::Frame& frame, bool is_place_known = true);
+  /// Takes a stretch of motion, with its event and the frame in force. Nothing is cut where it is not known where the
+  /// machine is.
   void take(const motion::Stretch& stretch, const simulation::TimedEvent& event, const geometry::Frame& frame);
   /// Takes the part of a stretch from one path parameter to another.
   void take_part(const motion::Stretch& stretch, const simulation::TimedEvent& event, const geometry::Frame& frame,

@@ -45,11 +45,13 @@ static const running::MoveEvent* motion_beside(const TimedEvent* last, const exe
 static Timing::Standing standing(const Simulation& before, const running::Runner& run, const TimedMachine& machine,
                                  const running::MoveEvent* beside) {
   const execution::State& state = run.result().state;
+  const ToolLength tool = before.machine().length_of(before.tool());
   const geometry::Pose programmed = beside != nullptr ? beside->to : programmed_pose(state);
   return {.time = before.time(),
           .tip = at_rest(before.sample().tip, programmed, machine.motion),
           .programmed = programmed,
-          .tool_length = before.tool_length(),
+          .tool = tool,
+          .is_tip_known = tool.is_known && before.is_place_known(),
           .frame_axes = state.face_mounted ? state.face.axes : geometry::Mat3(geometry::Mat3::Identity()),
           .spindle = before.spindle(),
           .spindle_speed = state.spindle_speed};
@@ -67,6 +69,7 @@ Simulation::Simulation(const Simulation& before, const running::Runner& run, con
       timing_(machine, standing(before, run, machine, beside)),
       earlier_stretch_(before.last_stretch_ ? std::make_shared<const motion::Stretch>(*before.last_stretch_)
                                             : before.earlier_stretch_),
+      is_place_known_(before.is_place_known()),
       has_moved_tool_(before.has_moved_tool_),
       last_motion_(before.last_motion_),
       begin_(timing_.tip()),
@@ -176,6 +179,7 @@ void Simulation::pass_piece() {
   if (const auto* const change = std::get_if<running::ToolEvent>(&event.what)) {
     tool_ = change->tool;
     tool_length_ = machine_->tool_length(tool_);
+    is_place_known_ = pieces_[passed_].cause->ends_at_known_place;
     has_moved_tool_ = false;
   }
   if (const auto& stretch = pieces_[passed_].stretch) {
@@ -184,7 +188,8 @@ void Simulation::pass_piece() {
     if (!stretch->ends_move)
       travelled_ += stretch->parameter_at(stretch->start + stretch->duration) - stretch->parameter_at(stretch->start);
     last_stretch_ = stretch;
-    has_moved_tool_ = true;
+    has_moved_tool_ = pieces_[passed_].cause->is_at_known_place();
+    if (stretch->ends_move) is_place_known_ = pieces_[passed_].cause->ends_at_known_place;
     last_motion_ = pieces_[passed_].cause;
   }
   ++passed_;
@@ -271,6 +276,10 @@ const kinematics::Move* Simulation::motion() const {
 const motion::Stretch* Simulation::stretch() const {
   const bool moves = piece() != nullptr && piece()->stretch.has_value() && piece()->start <= time_;
   return moves ? &*piece()->stretch : nullptr;
+}
+
+bool Simulation::is_place_known() const {
+  return is_place_known_ && (stretch() == nullptr || piece()->cause->is_at_known_place());
 }
 
 const motion::Stretch* Simulation::stretch_before() const {

@@ -93,7 +93,10 @@ class Simulation {
   /// non-const call.
   const kinematics::Move* motion() const;
   motion::Sample sample() const;
-  /// The last stretch that has been completed with the mounted tool; null if it has not been moved yet.
+  /// Whether it is known where the machine is: not after a tool whose length is not known (TipPosition).
+  bool is_place_known() const;
+  /// The last stretch that has been completed with the mounted tool; null if it has not been moved yet, or it is not
+  /// known where.
   const motion::Stretch* stretch_before() const;
   const TimedMachine& machine() const { return *machine_; }
   /// The mounted tool: within an M06 the one before.
@@ -152,7 +155,8 @@ class Simulation {
   std::optional<motion::Stretch> last_stretch_;
   /// Of the run from before the constructor; or null.
   std::shared_ptr<const motion::Stretch> earlier_stretch_;
-  bool has_moved_tool_ = false;  ///< Whether a stretch has been completed since the last tool change.
+  bool is_place_known_ = true;   ///< Where the machine was before the current piece.
+  bool has_moved_tool_ = false;  ///< Whether a stretch has been completed since the last tool change, at known places.
   /// Last motion with a completed stretch, possibly from before the constructor; or null.
   std::shared_ptr<const TimedEvent> last_motion_;
   geometry::Pose begin_;  ///< Tip at the start, with a tool of start_tool_length_.

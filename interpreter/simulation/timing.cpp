@@ -30,9 +30,10 @@ static constexpr std::size_t kMaxWaiting = 32768;
 static constexpr double kSlowest = 1e-6;
 static constexpr double kLongest = 1e9;
 
-double TimedMachine::tool_length(const execution::ToolCode& tool) const {
-  const auto known = tool_lengths.find(tool);
-  return known == tool_lengths.end() ? 0 : known->second;
+ToolLength TimedMachine::length_of(const execution::ToolCode& tool) const {
+  const auto found = tool_lengths.find(tool);
+  const double length = found == tool_lengths.end() ? 0 : found->second;
+  return {length, length > 0 || tool == execution::ToolCode()};
 }
 
 double TimedMachine::highest_tip(const execution::ToolCode& tool, double b, double c) const {
@@ -84,7 +85,7 @@ Timing::Timing(const TimedMachine& machine, Listeners listeners)
 
 Timing::Timing(const TimedMachine& machine, const Standing& standing) : Timing(machine, Listeners{}) {
   planner_.rest(standing.time);
-  position_ = {standing.tip, standing.programmed, standing.tool_length, standing.frame_axes};
+  position_ = {standing.tip, standing.programmed, standing.tool, standing.frame_axes, standing.is_tip_known};
   spindle_ = standing.spindle;
   spindle_speed_ = standing.spindle_speed;
 }
@@ -123,7 +124,9 @@ void Timing::push_motion() {
   const running::MoveEvent& move = std::get<running::MoveEvent>(waiting.timed.event.what);
   kinematics::Move planned = planned_move(move, *machine_, position_.tool_length());
   planned.tag = waiting.motion;
+  waiting.timed.begins_at_known_place = is_place_known();
   position_.follow(move, planned);
+  waiting.timed.ends_at_known_place = is_place_known();
   planned.exact_stop = std::exchange(stops_exactly_, false);
   // In three-axis interpolation the channel is emptied; in five-axis interpolation the motion continues at once
   // (I.3.8).
@@ -174,9 +177,15 @@ void Timing::rest(const running::Event& event, double seconds) {
   come_to_rest();
   const double start = planner_.time();
   planner_.rest(seconds);
+  const bool was_place_known = is_place_known();
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what))
-    position_.mount(machine_->motion.kinematics, machine_->tool_length(tool->tool));
-  if (listeners_.event) listeners_.event({.event = event, .start = start, .duration = seconds});
+    position_.mount(machine_->motion.kinematics, machine_->length_of(tool->tool));
+  if (listeners_.event)
+    listeners_.event({.event = event,
+                      .start = start,
+                      .duration = seconds,
+                      .begins_at_known_place = was_place_known,
+                      .ends_at_known_place = is_place_known()});
 }
 
 /// Seconds for which the machine stands still for the event; negative if it does not stop.

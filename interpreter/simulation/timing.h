@@ -37,7 +37,8 @@ struct TimedMachine {
   geometry::Pose home;
   double spindle_speed = std::numeric_limits<double>::infinity();  ///< Maximum S, rev/min.
 
-  double tool_length(const execution::ToolCode& tool) const;  ///< mm.
+  ToolLength length_of(const execution::ToolCode& tool) const;
+  double tool_length(const execution::ToolCode& tool) const { return length_of(tool).mm; }  ///< mm.
   /// The highest Z of the machine frame to which Z lifts the tip of a tool while B and C stand at these angles; mm,
   /// rounded down to 0.001.
   double highest_tip(const execution::ToolCode& tool, double b, double c) const;
@@ -53,6 +54,11 @@ struct TimedEvent {
   /// For a motion: the motion requested from the machine. It starts at the machine's position, which after a tool
   /// change differs from the programmed one (docs/motion.md).
   std::optional<kinematics::Move> move;
+  /// For a motion and a tool change: whether it is known where the machine is before and after it (TipPosition).
+  bool begins_at_known_place = true;
+  bool ends_at_known_place = true;
+
+  bool is_at_known_place() const { return begins_at_known_place && ends_at_known_place; }
 };
 
 /// Computes the times of the events of a run. The control looks ahead, so the duration of a motion is known some
@@ -73,7 +79,8 @@ class Timing {
     double time = 0;
     geometry::Pose tip;         ///< Machine frame.
     geometry::Pose programmed;  ///< Programmed position, machine frame; differs from `tip` after a tool change.
-    double tool_length = 0;
+    ToolLength tool;
+    bool is_tip_known = true;                                ///< Whether the tip is there (TipPosition).
     geometry::Mat3 frame_axes = geometry::Mat3::Identity();  ///< Axes of the frame in force, machine frame.
     SpindleMotion spindle;
     double spindle_speed = 0;  ///< The last S; 0 before any.
@@ -125,6 +132,7 @@ class Timing {
     bool has_begun = false;
   };
 
+  bool is_place_known() const { return position_.is_place_known(machine_->motion.kinematics); }
   WaitingEvent& enqueue(const running::Event& event);
   void push_motion();
   void take_stretches();

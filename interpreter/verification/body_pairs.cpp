@@ -61,11 +61,8 @@ class PairsMaker {
   }
 
  private:
-  /// Whether it is known where the spindle is: not with a tool whose length is not known.
-  bool knows_spindle() const { return tool_.name.empty() || tool_.length > 0; }
-
   void add_tool() {
-    if (!knows_spindle()) return;
+    if (!tool_.is_place_known) return;
     if (tool_.bodies) {
       add_part(ToolPart::Cutter, tool_.bodies->cutter, 0);
       add_part(ToolPart::Shank, tool_.bodies->shank, 0);
@@ -93,7 +90,7 @@ class PairsMaker {
   void add_machine() {
     for (const SceneBody& body : scene_.machine) {
       if (carries_spindle(body.on)) {
-        if (!knows_spindle()) continue;
+        if (!tool_.is_place_known) continue;
         add_body(body, body.on, Vec3::Zero());
         // The tool moves towards what carries it: along Y and Z past a gantry, and a head turns it towards the ram.
         const Link last = kinematics_.kind == MachineKind::Head ? Link::Z : Link::Y;

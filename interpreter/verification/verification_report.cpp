@@ -58,9 +58,19 @@ static std::string in_words(const Unverified& gap, Language language) {
   return dialect::format(kUndecided, language, line);
 }
 
+static std::string in_words(const UnknownPlace& place, Language language) {
+  static constexpr Text kLines = {"lines {} to {} (it is not known where {} leaves the machine)",
+                                  "linee da {} a {} (non si sa dove {} lascia la macchina)"};
+  static constexpr Text kAndOthers = {"lines {} to {} and others (it is not known where {} leaves the machine)",
+                                      "linee da {} a {} e altre (non si sa dove {} lascia la macchina)"};
+  return dialect::format(place.has_more ? kAndOthers : kLines, language, place.line + 1, place.last_line + 1,
+                         place.after);
+}
+
 static std::vector<std::string> not_verified(const Certificate& certificate, Language language) {
   std::vector<std::string> gaps;
   for (const Unverified& each : certificate.gaps) gaps.push_back(in_words(each, language));
+  for (const UnknownPlace& each : certificate.unknown_places) gaps.push_back(in_words(each, language));
   if (!certificate.has_setup)
     gaps.emplace_back(Text{"no setup is for this program", "nessun attrezzaggio è per questo programma"}.in(language));
   if (const auto& window = certificate.window)

@@ -198,7 +198,12 @@ static void add_findings(simulation::RunOutcome& outcome, const std::vector<Cont
     found.push_back(finding_on(each, told[each.worst]));
     found.back().mistake += mistakes;
   }
-  for (const Unverified& gap : certificate.gaps) found.push_back({.line = gap.line, .finding = finding_of(gap)});
+  for (const Unverified& gap : certificate.gaps) {
+    found.push_back({.line = gap.line, .finding = finding_of(gap)});
+    for (const UnknownPlace& each : certificate.unknown_places)
+      if (gap.gap == Gap::ToolWithoutLength && gap.name.in(dialect::Language::English) == each.after)
+        found.back().last_line = each.last_line;
+  }
   const auto by_line = [](const RunFinding& a, const RunFinding& b) { return a.line < b.line; };
   std::stable_sort(found.begin(), found.end(), by_line);
   syntax::LineFinder lines(text);

@@ -50,6 +50,8 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
 
 void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
   if (stretch.ends_move) ++certificate_.motions;
+  if (!is_place_known_ && event.is_at_known_place()) arrive_at_known_place();
+  if (unknown_place_) unknown_place_->last_line = event.event.line;
   stretches_.push_back(stretch);
   waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1, .is_in_inches = event.event.is_in_inches});
   if (material_) material_->take(stretch, event, frames_.back());
@@ -58,16 +60,18 @@ void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent
 
 void Verifier::take(const simulation::TimedEvent& event) {
   if (const auto* const frame = std::get_if<running::FrameEvent>(&event.event.what)) frames_.push_back(frame->in_force);
-  if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what))
-    mount(tool->tool, event.event, event.start + event.duration);
+  if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what)) mount(tool->tool, event);
   if (material_) material_->take(event);
 }
 
-MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool) {
+MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool,
+                         bool is_place_known) {
   const auto known = scene.tools.find(tool);
+  const simulation::ToolLength length = machine.length_of(tool);
   return {.bodies = known == scene.tools.end() ? nullptr : &known->second,
           .name = tool == execution::ToolCode() ? std::string() : running::tool_name(tool),
-          .length = machine.tool_length(tool)};
+          .length = length.mm,
+          .is_place_known = length.is_known && is_place_known};
 }
 
 /// The machine as it stands at `time`.
@@ -79,16 +83,26 @@ static motion::Stretch rest_at(const kinematics::Coordinates& joints, double too
   return rest;
 }
 
-void Verifier::mount(const execution::ToolCode& tool, const running::Event& event, double time) {
+void Verifier::mount(const execution::ToolCode& tool, const simulation::TimedEvent& timed) {
+  const running::Event& event = timed.event;
+  const double time = timed.start + timed.duration;
   examine_waiting();
   log_.close_all();
+  end_unknown_place();
   tool_ = tool;
-  const MountedTool mounted = mounted_tool(scene_, machine_, tool);
+  const MountedTool mounted = mounted_tool(scene_, machine_, tool, timed.ends_at_known_place);
+  is_place_known_ = mounted.is_place_known;
   bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted, origin_);
-  if (material_) material_->mount(tool, cutting_tool(scene_, mounted), event, time, frames_.back());
+  if (material_)
+    material_->mount(tool, cutting_tool(scene_, mounted), event, time, frames_.back(), timed.ends_at_known_place);
   // What the tool touches where it is mounted.
   stretches_.push_back(rest_at(joints_, mounted.length, time));
   waiting_.push_back({.line = event.line, .frame = frames_.size() - 1, .is_in_inches = event.is_in_inches});
+  if (!machine_.length_of(tool).is_known) {
+    last_without_length_ = tool;
+  } else if (!is_place_known_) {
+    unknown_place_ = {.after = running::tool_name(last_without_length_), .line = event.line, .last_line = event.line};
+  }
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;
   const bool is_empty = mounted.name.empty();  // After T000000 nothing of a tool is there.
@@ -99,6 +113,28 @@ void Verifier::mount(const execution::ToolCode& tool, const running::Event& even
   certificate_.gaps.push_back({.gap = has_length ? Gap::ToolWithoutShape : Gap::ToolWithoutLength,
                                .line = event.line,
                                .name = dialect::GivenName::of({mounted.name, mounted.name})});
+}
+
+/// Compares from here on what is on the spindle, too.
+void Verifier::arrive_at_known_place() {
+  examine_waiting();
+  log_.close_all();
+  end_unknown_place();
+  is_place_known_ = true;
+  bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted_tool(scene_, machine_, tool_), origin_);
+}
+
+/// Notes where it has been unknown, if the machine has moved there.
+void Verifier::end_unknown_place() {
+  const std::optional<UnknownPlace> ended = std::exchange(unknown_place_, std::nullopt);
+  if (!ended || ended->last_line == ended->line) return;
+  std::vector<UnknownPlace>& all = certificate_.unknown_places;
+  const auto known =
+      std::find_if(all.begin(), all.end(), [&](const UnknownPlace& each) { return each.after == ended->after; });
+  if (known == all.end())
+    all.push_back(*ended);
+  else
+    known->has_more = true;
 }
 
 void Verifier::examine_waiting() {
@@ -143,6 +179,7 @@ void Verifier::examine_waiting() {
 void Verifier::finish() {
   examine_waiting();
   log_.close_all();
+  end_unknown_place();
   contacts_ = log_.contacts();
   certificate_.contacts = log_.contact_count();
   certificate_.more_contacts = log_.left_out();

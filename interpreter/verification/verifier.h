@@ -46,7 +46,9 @@ class Verifier {
     bool is_in_inches = false;
   };
 
-  void mount(const execution::ToolCode& tool, const running::Event& event, double time);
+  void mount(const execution::ToolCode& tool, const simulation::TimedEvent& event);
+  void arrive_at_known_place();
+  void end_unknown_place();
   void examine_waiting();
   void finish_material();
 
@@ -55,6 +57,10 @@ class Verifier {
   geometry::Vec3 origin_;
   WorkTogether work_together_;
   execution::ToolCode tool_;
+  bool is_place_known_ = true;  ///< Of the machine: whether bodies_ has what is on its spindle.
+  execution::ToolCode last_without_length_;
+  std::optional<UnknownPlace>
+      unknown_place_;  ///< Where the machine is with a tool of known length, but not known where.
   std::set<execution::ToolCode> known_gaps_;
   kinematics::Coordinates joints_;  ///< At the end of the last stretch that has been examined.
   BodyPairs bodies_;
@@ -68,8 +74,10 @@ class Verifier {
   Certificate certificate_;
 };
 
-/// A tool that a machine mounts, with its bodies in a scene. The result refers to the scene.
-MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool);
+/// A tool that a machine mounts, with its bodies in a scene. `is_place_known` says whether it is known where the
+/// machine is; a tool whose length is not known is nowhere. The result refers to the scene.
+MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool,
+                         bool is_place_known = true);
 
 /// The origin of the first workpiece frame that a run sets (G92); machine frame, mm. 0 if it sets none.
 geometry::Vec3 first_workpiece_origin(std::string_view text, const running::RunOptions& options);

@@ -15,13 +15,14 @@ using documents::LandmarkKind;
 using documents::Snapshot;
 using execution::AxisSet;
 using execution::State;
+using execution::ToolCode;
 using geometry::Pose;
 
-std::optional<execution::ToolCode> mounted_tool(const Snapshot& snapshot, std::size_t lines, const State& state) {
+std::optional<ToolCode> mounted_tool(const Snapshot& snapshot, std::size_t lines, const State& state) {
   if (state.tool_known) return state.tool;
   const std::vector<documents::Landmark> changes = snapshot.index().landmarks(LandmarkKind::ToolChange);
   if (!changes.empty() && changes.front().line < lines) return std::nullopt;
-  return execution::ToolCode();
+  return ToolCode();
 }
 
 static Pose pose_in_machine(const State& state) {
@@ -138,6 +139,8 @@ class LinesAbove {
     const auto after = mounted_tool(snapshot_, line + 1, run.after);
     if (!before || !after) return std::nullopt;
     const simulation::TimedMachine& machine = snapshot_.configuration().machine.timed;
+    const auto is_known = [&](const auto& tool) { return machine.length_of(tool).is_known; };
+    if (*before != *after && !(is_known(*before) && is_known(*after))) return true;
     return machine.tool_length(*before) != machine.tool_length(*after);
   }
 
@@ -149,23 +152,27 @@ class LinesAbove {
 class TipFollower {
  public:
   /// Starts before a line, with the tip where the program has it.
-  TipFollower(const simulation::TimedMachine& machine, const LineRun& first, double tool_length)
+  TipFollower(const simulation::TimedMachine& machine, const LineRun& first, const ToolCode& tool)
       : machine_(machine),
-        tip_(pose_in_machine(first.before), pose_in_machine(first.before), tool_length, first.before.face.axes) {}
+        tip_(pose_in_machine(first.before), pose_in_machine(first.before), machine.length_of(tool),
+             first.before.face.axes, true) {}
 
-  /// Returns the line's motion, if it has one.
-  std::optional<kinematics::Move> take(const LineRun& run, double tool_length) {
-    mount(tool_length);
+  /// Returns the line's motion, if it has one; nothing where it is not known where the machine begins or ends it.
+  std::optional<kinematics::Move> take(const LineRun& run, const ToolCode& tool) {
+    mount(machine_.length_of(tool));
     if (!run.move) return std::nullopt;
+    const bool was_place_known = is_place_known();
     tip_.take(running::FrameEvent{.face = run.moved_in.face});
     const running::MoveEvent move = execution::in_machine(*run.move, run.moved_in);
     kinematics::Move made = simulation::planned_move(move, machine_, tip_.tool_length());
     tip_.follow(move, made);
+    if (!was_place_known || !is_place_known()) return std::nullopt;
     return made;
   }
 
  private:
-  void mount(double tool_length) { tip_.mount(machine_.motion.kinematics, tool_length); }
+  void mount(const simulation::ToolLength& tool) { tip_.mount(machine_.motion.kinematics, tool); }
+  bool is_place_known() const { return tip_.is_place_known(machine_.motion.kinematics); }
 
   const simulation::TimedMachine& machine_;
   simulation::TipPosition tip_;
@@ -183,10 +190,10 @@ std::optional<kinematics::Move> machine_motion(const Snapshot& snapshot, std::si
   const LineRun& first = above->empty() ? run : above->back();
   const auto first_tool = mounted_tool(snapshot, line - above->size(), first.before);
   if (!first_tool) return std::nullopt;
-  TipFollower follower(machine, first, machine.tool_length(*first_tool));
+  TipFollower follower(machine, first, *first_tool);
   for (std::size_t i = above->size(); i-- > 0;)
-    follower.take((*above)[i], machine.tool_length(*mounted_tool(snapshot, line - i, (*above)[i].after)));
-  return follower.take(run, machine.tool_length(*tool));
+    follower.take((*above)[i], *mounted_tool(snapshot, line - i, (*above)[i].after));
+  return follower.take(run, *tool);
 }
 
 }  // namespace isocnc::queries

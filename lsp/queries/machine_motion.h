@@ -12,7 +12,8 @@ namespace isocnc::queries {
 /// length is not the programmed position (I.3.4, D33). `run` is one of the runs of the line and has a motion.
 ///
 /// Nothing where the tool is beside the program: under G41 and G42, and after G40 until a motion has led it back.
-/// Nothing either where the lines above do not show where the tip is.
+/// Nothing either where the lines above do not show where the tip is, and where it is not known where the machine is:
+/// not after a tool whose length is not known (simulation::TipPosition).
 std::optional<kinematics::Move> machine_motion(const documents::Snapshot& snapshot, std::size_t line,
                                                const LineRun& run);
 

@@ -86,7 +86,8 @@ constexpr const char* kMachine = R"({
   "machine": {
     "home": {"z": 300},
     "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 10, "shape": "flat", "cutLength": 60},
-              {"head": 1, "holder": 1, "tool": 2, "length": 140, "radius": 10, "shape": "flat", "cutLength": 60}]},
+              {"head": 1, "holder": 1, "tool": 2, "length": 140, "radius": 10, "shape": "flat", "cutLength": 60},
+              {"head": 1, "holder": 1, "tool": 3, "radius": 10}]},
   "setups": [{"paths": ["*.iso"], "clearance": 0, "fixtures": [
     {"name": "post 1", "box": [[100, -20, 0], [120, 20, 50]]},
     {"name": "post 2", "box": [[200, -20, 0], [220, 20, 50]]},
@@ -189,6 +190,47 @@ TEST_F(Contacts, OfAToolThatIsMountedInAnObstacleBelongToTheNextMotion) {
   EXPECT_EQ(moments.on, moments.back);
 }
 
+/// After a tool whose length is not known it is not known where the next one is, until Z has a coordinate.
+TEST_F(Contacts, AreNoneWhereItIsNotKnownWhereTheToolIs) {
+  launch(
+      "M06 T101003\n"
+      "G00 X110 Y0 Z20\n"
+      "M06 T101001\n"
+      "G00 X210\n"
+      "Z80\n"
+      "X310\n"
+      "Z20\n"  // 7
+      "M02\n");
+  turn_on(client);
+  client.set_lines({5, 6});
+  client.run("configurationDone");
+  EXPECT_EQ(client.line(), 5);
+  EXPECT_EQ(client.evaluate("CLEARANCE"), "-");
+  EXPECT_EQ(client.evaluate("DEPTH"), "-");
+  EXPECT_TRUE(client.variables("Surroundings").size() == 2u);
+  EXPECT_EQ(client.run("continue").at("reason"), "breakpoint");
+  EXPECT_NEAR(std::stod(client.evaluate("CLEARANCE,9")), 30, 0.02);
+  EXPECT_EQ(client.run("continue").at("text"), "E152");
+  EXPECT_EQ(client.line(), 7);
+  EXPECT_EQ(client.run("reverseContinue").at("reason"), "breakpoint");
+  EXPECT_EQ(client.line(), 6);
+  EXPECT_EQ(client.run("reverseContinue").at("reason"), "breakpoint");
+  EXPECT_EQ(client.evaluate("CLEARANCE"), "-");
+  EXPECT_EQ(client.run("reverseContinue").at("reason"), "entry");
+}
+
+/// What is changed by hand does not tell where it is.
+TEST_F(Contacts, AreNoneWhereThatIsNotKnownAfterAChangeByHand) {
+  launch("M06 T101003\nG00 X110 Y0 Z20\nM06 T101001\nG00 X210\nX310\nX320 Y0 Z20\nX330\nM02\n");
+  turn_on(client);
+  client.set_lines({5});
+  client.run("configurationDone");
+  client.request("setExpression", {{"expression", "OVERRIDE"}, {"value", "50"}});
+  EXPECT_EQ(client.evaluate("CLEARANCE"), "-");
+  EXPECT_EQ(client.run("continue").at("text"), "E152");
+  EXPECT_EQ(client.line(), 7);
+}
+
 TEST_F(Contacts, CanHaveAConditionThatIsJudgedThere) {
   struct Case {
     const char* condition;
@@ -288,7 +330,7 @@ TEST_F(Surroundings, ListObstaclesNearestFirst) {
   EXPECT_EQ(below[1], "Distance=0");
   EXPECT_EQ(below[2], "Depth=10");
   EXPECT_THAT(below[3], testing::StartsWith("Point=X 100 Y"));
-  EXPECT_THAT(below[4], testing::EndsWith("isocnc.json:7"));
+  EXPECT_THAT(below[4], testing::EndsWith("isocnc.json:8"));
   EXPECT_THAT(client.refusal("variables", {{"variablesReference", 2003}}), HasSubstr("2003"));
 }
 

@@ -142,6 +142,12 @@ TEST_F(Obstacles, NothingIsSaidWhereTheToolIsNotKnownToBe) {
   EXPECT_EQ(last_of_hover(7), "nearest: clamp 2, 40 mm");
   open("M06 T101004\nG00 X0 Y0 Z10\nX50\nM02\n");  // A tool without a length.
   EXPECT_THAT(hover(2), Not(HasSubstr("clamp")));
+  // After it, until Z has a coordinate.
+  open("M06 T101004\nG00 X0 Y0 Z10\nM06 T101001\nG00 X50\nZ10\nX60\nM02\n");
+  for (const int line : {3, 4}) EXPECT_THAT(hover(line), Not(HasSubstr("clamp"))) << line;
+  EXPECT_EQ(last_of_hover(5), "nearest: clamp 2, 30 mm");
+  open("M06 T101004\nG00 X0 Y0 Z10\nM06 T000000\nG00 X50\nM02\n");
+  EXPECT_THAT(hover(3), Not(HasSubstr("clamp")));
 }
 
 TEST_F(Obstacles, AToolWithoutAShapeIsSaidToBeLeftOut) {

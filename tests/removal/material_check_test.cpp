@@ -99,6 +99,16 @@ TEST(Material, RapidsThroughIt) {
   EXPECT_EQ(told(Bench().cut("G00 X250 Y89.9 Z50\nZ5\nX500\nZ50\n")), Lines());
 }
 
+/// After a tool whose length is not known it is not known where the next one is, until Z has a coordinate.
+TEST(Material, IsNotMetWhereItIsNotKnownWhereTheToolIs) {
+  const VerifiedRun run = Bench().run(
+      "M06 T101002\nG00 X250 Y150 Z20\nM06 T101001\nS12000 M03\nG00 X500\nX350\nZ50\n"
+      "G01 Z30 F1000\nG00 Z50\nM02\n");
+  EXPECT_EQ(told(run), Lines());
+  const double exact = pi * 100 * 10;
+  EXPECT_NEAR(removed(run), exact, 0.005 * exact);
+}
+
 /// X is so slow that Z has arrived before the cutter comes to the block.
 TEST(Material, RapidsGoWhereTheirJointsLeadThem) {
   Bench bench;

@@ -368,6 +368,46 @@ TEST(ContactReports, AToolWithoutLengthHitsNothing) {
   EXPECT_EQ(run.certificate->gaps[0].gap, Gap::ToolWithoutLength);
 }
 
+/// Nor where the tool after it begins, until Z has a coordinate. The one finding leads to the last line of that.
+TEST(ContactReports, AfterAToolWithoutLengthNothingIsHitUntilZHasACoordinate) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("clamp", {-10, -10, -50}, {10, 10, 20});
+  const VerifiedRun run = shop.run(
+      "M06 T101002\nG00 X0 Y0 Z10\n"
+      "M06 T101001\nG00 X50\nZ80\nX0\n"
+      "Z10\nZ80\n"  // Line 7 goes into the clamp.
+      "M06 T000000\nG00 X100\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  EXPECT_EQ(run.contacts[0].line, 6u);
+  ASSERT_EQ(run.certificate->gaps.size(), 1u);
+  ASSERT_EQ(run.outcome.findings.size(), 2u);
+  EXPECT_EQ(run.outcome.findings[0].line, 0u);
+  EXPECT_EQ(run.outcome.findings[0].last_line, 4u);
+  const auto says = [&](Language language, const char* text) {
+    return in_words(*run.certificate, language).find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(
+      says(Language::English,
+           "not verified: T101002 has no length, lines 3 to 5 (it is not known where T101002 leaves the machine)"));
+  EXPECT_TRUE(says(Language::Italian, "linee da 3 a 5 (non si sa dove T101002 lascia la macchina)"));
+  const std::string again = "M06 T101002\nG00 X0 Y0 Z10\nM06 T101001\nG00 X50\n";
+  EXPECT_NE(in_words(*shop.run(again + again + "M02\n").certificate, Language::English)
+                .find("lines 3 to 4 and others (it is not known where"),
+            std::string::npos);
+}
+
+/// A tool without a length that has not moved up or down leaves the spindle where it was.
+TEST(ContactReports, AfterAToolWithoutLengthThatHasNotMovedAllIsCompared) {
+  Shop shop;
+  shop.scene.clearance = 0;
+  shop.box("clamp", {-10, -10, -50}, {10, 10, 20});
+  const VerifiedRun run = shop.run("M06 T101001\nG00 X100 Y0 Z10\nM06 T101002\nM06 T101001\nG00 X0\nG00 Z80\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  EXPECT_EQ(run.contacts[0].line, 4u);
+  EXPECT_TRUE(run.certificate->unknown_places.empty());
+}
+
 TEST(ContactReports, TheCertificateSaysWhatWasNotRun) {
   const Shop shop;
   running::RunOptions options;
