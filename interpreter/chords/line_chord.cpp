@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interpreter/chords/vector_loops.h"
+
 namespace isocnc::chords {
 
 using geometry::Vec2;
@@ -67,37 +69,60 @@ HeightInterval FrustumChord::of(const Vec2& line) const {
   return result.is_empty() ? HeightInterval() : result;
 }
 
-/// The z of a sphere about from + s along, s in [0, 1], is z(s) +- sqrt(radius^2 - distance(s)^2). Both are concave or
-/// convex, with their extremes where the slope of the line meets that of the sphere, or at an end.
-HeightInterval capsule_chord(const Vec3& from, const Vec3& to, double radius, const Vec2& line) {
+CapsuleChord::CapsuleChord(const Vec3& from, const Vec3& to, double radius)
+    : x_(from.x()), y_(from.y()), low_(from.z()), high_(from.z()), square_(radius * radius) {
   const Vec3 along = to - from;
-  const Vec2 flat = along.head<2>();
-  const double length = flat.norm();
-  const Vec2 to_line = line - from.head<2>();
-  if (!(length > 0)) {
-    const double square = radius * radius - to_line.squaredNorm();
-    if (!(square > 0)) return {};
-    const double reach = std::sqrt(square);
-    return {std::min(from.z(), to.z()) - reach, std::max(from.z(), to.z()) + reach};
+  length_ = along.head<2>().norm();
+  if (length_ > 0) {
+    direction_x_ = along.x() / length_;
+    direction_y_ = along.y() / length_;
+    slope_ = along.z() / length_;
+    lean_ = slope_ / std::sqrt(1 + slope_ * slope_);
+  } else {
+    low_ = std::min(from.z(), to.z());
+    high_ = std::max(from.z(), to.z());
   }
-  const Vec2 direction = flat / length;
-  const double foot = to_line.dot(direction);
-  const double aside = to_line.x() * direction.y() - to_line.y() * direction.x();
-  const double square = radius * radius - aside * aside;
-  if (!(square > 0)) return {};
-  const double half = std::sqrt(square);
-  const double first = std::max(0.0, foot - half);
-  const double last = std::min(length, foot + half);
-  if (!(first <= last)) return {};
-  const double slope = along.z() / length;
-  const double shift = slope * half / std::sqrt(1 + slope * slope);
-  const auto reach_at = [&](double t) {
-    const double u = t - foot;
-    return std::sqrt(std::max(0.0, square - u * u));
-  };
-  const double lowest = std::clamp(foot - shift, first, last);
-  const double highest = std::clamp(foot + shift, first, last);
-  return {from.z() + slope * lowest - reach_at(lowest), from.z() + slope * highest + reach_at(highest)};
+}
+
+CapsuleChord::SegmentPlace CapsuleChord::place(double dx, double dy) const {
+  const double aside = dx * direction_y_ - dy * direction_x_;
+  return {dx * direction_x_ + dy * direction_y_, square_ - aside * aside};
+}
+
+/// The z of a sphere about from + s along, s in [0, 1], is z(s) +- sqrt(radius^2 - distance(s)^2). Both are concave or
+/// convex, with their extremes where the slope of the line meets that of the sphere, or at an end. Without a branch, so
+/// that a loop over it becomes vectors.
+HeightInterval CapsuleChord::chord(const SegmentPlace& at, double half) const {
+  const double first = at.foot - half > 0 ? at.foot - half : 0.0;
+  const double last = at.foot + half < length_ ? at.foot + half : length_;
+  const double shift = lean_ * half;
+  const double low = at.foot - shift > first ? at.foot - shift : first;
+  const double high = at.foot + shift > first ? at.foot + shift : first;
+  const double lowest = low < last ? low : last;
+  const double highest = high < last ? high : last;
+  const double before = lowest - at.foot;
+  const double after = highest - at.foot;
+  const bool is_met = at.square > 0 && first <= last;
+  const double bottom = low_ + slope_ * lowest - square_root(at.square - before * before);
+  const double top = high_ + slope_ * highest + square_root(at.square - after * after);
+  return {is_met ? bottom : kInfinity, is_met ? top : -kInfinity};
+}
+
+HeightInterval CapsuleChord::of(const Vec2& line) const {
+  const SegmentPlace at = place(line.x() - x_, line.y() - y_);
+  return chord(at, square_root(at.square));
+}
+
+ISOCNC_VECTOR_CLONES void CapsuleChord::of_row(double x, double step, double y, int count, float* bottoms,
+                                               float* tops) const {
+  constexpr double kInwards = 6.0e-8;  // Rounds to a float that is not lower.
+  const CapsuleChord self = *this;
+  for (int i = 0; i < count; ++i) {
+    const SegmentPlace at = self.place(x - self.x_ + i * step, y - self.y_);
+    const HeightInterval z = self.chord(at, square_root(at.square));
+    bottoms[i] = static_cast<float>(z.bottom + std::abs(z.bottom) * kInwards);
+    tops[i] = static_cast<float>(z.top - std::abs(z.top) * kInwards);
+  }
 }
 
 }  // namespace isocnc::chords

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "interpreter/chords/vector_loops.h"
+
 namespace isocnc::chords {
 
 using solids::BodyPiece;
@@ -13,8 +15,6 @@ using Kind = LowerSurface::Kind;
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-double square_root(double square) { return std::sqrt(std::max(0.0, square)); }
 
 double widest(const BodyPiece& piece) {
   return std::max(piece.core.bottom_radius, piece.core.top_radius) + piece.rounding;

@@ -4,16 +4,14 @@
 #include <cmath>
 
 #include "interpreter/chords/height_interval.h"
+#include "interpreter/chords/vector_loops.h"
 #include "interpreter/geometry/vectors.h"
 #include "interpreter/stock/grid.h"
 
 namespace isocnc::stock {
 
-/// The square root, or 0 of what is not positive. Without a branch, so that loops over it become vectors.
-inline double square_root(double square) { return std::sqrt((square + std::abs(square)) / 2); }
-
-/// The value, or 0 of what is negative. Without a branch, too.
-inline float positive(float value) { return (value + std::abs(value)) / 2; }
+using chords::positive;
+using chords::square_root;
 
 /// The half chord of a circle at a distance from its center; negative if there is none.
 inline double half_chord(double radius, double aside) {

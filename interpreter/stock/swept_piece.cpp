@@ -63,11 +63,12 @@ SweptPiece::SweptPiece(const solids::BodyPiece& piece, const solids::AxisPlaceme
       at_start_(piece_.core, at),
       at_end_(piece_.core, {at.origin + travel, at.axis}) {
   const Frustum& core = piece_.core;
-  is_ball_ = core.top == core.bottom && core.bottom_radius == 0 && core.top_radius == 0;
+  if (core.top == core.bottom && core.bottom_radius == 0 && core.top_radius == 0)
+    ball_.emplace(at.at(core.bottom), at.at(core.bottom) + travel, piece_.rounding);
   bounds_ = swept_bounds(piece_, at, travel);
   find_shadow();
   find_floats();
-  if (!moves_ || is_ball_) return;
+  if (!moves_ || ball_) return;
   find_edges();
   discs_ = {SweptDisc{at.at(core.bottom), core.bottom_radius}, SweptDisc{at.at(core.top), core.top_radius}};
   rise_ = travel.dot(at.axis);
@@ -102,7 +103,8 @@ HeightInterval SweptPiece::shadow(double y) const {
 /// For each line, any vector n with n.z <= 0 serves for which no point of the sweep is as far along n as the line at
 /// its height: what is below is even farther along n. The one from the nearest point of the core, moved by a share of
 /// the travel, does where any does, or nearly so. Upwards the same with n.z >= 0. In a loop that becomes vectors.
-void SweptPiece::clear(double x, double step, double y, const float* tops, float* clearances) const {
+ISOCNC_VECTOR_CLONES void SweptPiece::clear(double x, double step, double y, const float* tops,
+                                            float* clearances) const {
   const FloatForm form = floats_;
   const Vec3 base = from_.at(piece_.core.bottom);
   const auto first = static_cast<float>(x - base.x());
@@ -182,10 +184,7 @@ void SweptPiece::find_edges() {
 }
 
 HeightInterval SweptPiece::chord(const Vec2& line) const {
-  if (is_ball_) {
-    const Vec3 center = from_.at(piece_.core.bottom);
-    return chords::capsule_chord(center, center + travel_, piece_.rounding, line);
-  }
+  if (ball_) return ball_->of(line);
   return piece_.rounding > 0 ? rounded_chord(line) : sharp_chord(line);
 }
 
@@ -362,6 +361,10 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
     all.first = std::min(all.first, window.first);
     all.last = std::max(all.last, window.last);
   }
+  // What a cut must be deeper than, mm, so that its depth along the axis is looked for.
+  const auto least_depth = [&] {
+    return std::max(sink.depth_limit(), static_cast<double>(sink.count().inside.depth) * rise);
+  };
   std::vector<HeightInterval> met;
   // `material_top` is the highest end of the dexel's material.
   const auto take = [&](int row, int column, double material_top) {
@@ -373,12 +376,13 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
       if (!interval.is_empty()) met.push_back(interval);
     }
     if (met.empty()) return HeightInterval();
-    std::sort(met.begin(), met.end(),
-              [](const HeightInterval& left, const HeightInterval& right) { return left.bottom < right.bottom; });
+    if (met.size() > 1)
+      std::sort(met.begin(), met.end(),
+                [](const HeightInterval& left, const HeightInterval& right) { return left.bottom < right.bottom; });
     sink.set_share(1);
     HeightInterval whole = met.front();
     for (const HeightInterval& each : met) whole.include(each);
-    const double least = std::max(sink.depth_limit(), static_cast<double>(sink.count().inside.depth) * rise);
+    const double least = least_depth();
     if ((std::min(whole.top, material_top) - whole.bottom) * rise > least) {
       const std::vector<HeightInterval> material = sink.material(row, column, whole);
       double length = 0;
@@ -406,6 +410,8 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
       for (std::size_t i = 0; i < kTogether; ++i) clearances[i] = std::min(clearances[i], each[i]);
     }
   };
+  // Many dexels of a ball are cut by each of its short ways: their chords are computed together.
+  const chords::CapsuleChord* const ball = windows.size() == 1 && sink.cuts() ? windows.front().piece->ball() : nullptr;
   // Rows from the `from`-th one on, each `step`-th one; in a group of dexels, `most` of them.
   const auto take_rows = [&](int from, int step, int most) {
     for (int row = from; row < all.last_row; row += step) {
@@ -440,9 +446,20 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
           count += is_open ? 1 : 0;
         }
         count = std::min(count, most);
+        if (count == 0) continue;
+        Floats bottoms, ends;
+        if (ball) ball->of_row(grid.x(group), grid.spacing.x(), grid.y(row), kTogether, bottoms.data(), ends.data());
+        const double least = ball ? least_depth() : 0;
         for (int i = 0; i < count; ++i) {
           const int lane = open[static_cast<std::size_t>(i)];
-          sink.set(0, take(row, group + lane, static_cast<double>(tops[static_cast<std::size_t>(lane)])));
+          const auto at = static_cast<std::size_t>(lane);
+          if (ball && !((std::min(ends[at], tops[at]) - bottoms[at]) * rise > least)) {
+            sink.set_share(1);
+            sink.bottoms()[0] = bottoms[at];
+            sink.tops()[0] = ends[at];
+          } else {
+            sink.set(0, take(row, group + lane, static_cast<double>(tops[at])));
+          }
           sink.take_row(row, group + lane, group + lane + 1);
         }
       }

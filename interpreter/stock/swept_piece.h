@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "interpreter/chords/line_chord.h"
@@ -32,6 +33,8 @@ class SweptPiece {
   /// their tops and below: there is a plane that leaves the sweep on its one side, and that part of the line on the
   /// other one.
   void clear(double x, double step, double y, const float* tops, float* clearances) const;
+  /// The chords of a ball, as CapsuleChord::of_row(). Null for another piece.
+  const chords::CapsuleChord* ball() const { return ball_ ? &*ball_ : nullptr; }
 
  private:
   /// A parallelogram with one side along the travel.
@@ -60,10 +63,10 @@ class SweptPiece {
   solids::AxisPlacement from_;
   geometry::Vec3 travel_;
   bool moves_ = false;
-  bool is_ball_ = false;
   solids::PlacedFrustum core_;
   chords::FrustumChord at_start_;
   chords::FrustumChord at_end_;
+  std::optional<chords::CapsuleChord> ball_;  ///< If it is one.
   solids::BoundingBox bounds_;
   /// x = at + slope y, a line that the shadow has on one side.
   struct ShadowSide {

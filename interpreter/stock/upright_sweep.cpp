@@ -40,8 +40,8 @@ class DistanceRow {
  private:
   static constexpr double kUp = 6.0e-8;  ///< Rounds to a float that is not lower.
 
-  static void fill(const std::vector<LowerSurface>& surfaces, double origin, const double* squares, int size,
-                   float* heights) {
+  ISOCNC_VECTOR_CLONES static void fill(const std::vector<LowerSurface>& surfaces, double origin, const double* squares,
+                                        int size, float* heights) {
     if (const LowerSurface& ball = surfaces.front();
         surfaces.size() == 1 && ball.kind == Kind::Round && ball.middle == 0 && ball.start == 0) {
       const double middle = ball.z + origin;
@@ -76,7 +76,7 @@ class DistanceRow {
   }
 
   /// In loops that become vectors.
-  static void fill(const LowerSurface& surface, const double* square, int size, double* heights) {
+  ISOCNC_VECTOR_CLONES static void fill(const LowerSurface& surface, const double* square, int size, double* heights) {
     const double z = surface.z;
     const double start = surface.start;
     const double middle = surface.middle;
@@ -106,7 +106,7 @@ class DistanceRow {
 
 /// The squares of the distances of `size` dexels of a row from a line. `u` and `rise` lead from the start of the line
 /// to the first of them, `step` to the next.
-void measure(const FlatLine& path, double u, double step, double rise, int size, double* squares) {
+ISOCNC_VECTOR_CLONES void measure(const FlatLine& path, double u, double step, double rise, int size, double* squares) {
   const Vec2 direction = path.direction;
   const double length = path.length;
   for (int i = 0; i < size; ++i) {
@@ -200,7 +200,7 @@ class BallTest {
   bool is_usable() const { return is_usable_; }
   /// Sets a number above 0 for each dexel that may end within the ball. `u` and `rise` as measure() has them. In a loop
   /// that becomes vectors.
-  void find(const float* tops, int size, double u, double rise, float* within) const {
+  ISOCNC_VECTOR_CLONES void find(const float* tops, int size, double u, double rise, float* within) const {
     const float x = x_;
     const float y = y_;
     const float length = length_;
