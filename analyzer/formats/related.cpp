@@ -98,6 +98,8 @@ std::optional<RelatedPlace> RelatedPlaces::of(const check::LocatedFinding& locat
 
 std::vector<RunPlace> run_places(const check::LocatedFinding& located, dialect::Language language) {
   static constexpr dialect::Text kLasts = {"it lasts until here", "dura fino a qui"};
+  static constexpr dialect::Text kUnknown = {"up to here it is not known where the machine is",
+                                             "fin qui non si sa dove sia la macchina"};
   static constexpr dialect::Text kDeepest = {"it is deepest here", "qui è più profondo"};
   static constexpr dialect::Text kNearest = {"it is nearest here", "qui è più vicino"};
   static constexpr dialect::Text kCutLast = {"what is met was last cut here",
@@ -105,8 +107,10 @@ std::vector<RunPlace> run_places(const check::LocatedFinding& located, dialect::
   static constexpr dialect::Text kStopped = {"the spindle was stopped here", "il mandrino è stato fermato qui"};
   static constexpr dialect::Text kDescribed = {"{} is described here", "{} è descritto qui"};
   std::vector<RunPlace> places;
-  if (located.last_line)
-    places.push_back({.file = {}, .line = *located.last_line + 1, .note = std::string(kLasts.in(language))});
+  if (located.last_line) {
+    const dialect::Text& note = located.finding.id == "not-verified"_diag ? kUnknown : kLasts;
+    places.push_back({.file = {}, .line = *located.last_line + 1, .note = std::string(note.in(language))});
+  }
   if (located.worst_line) {
     const dialect::Text& note = located.finding.id == "near-miss"_diag ? kNearest : kDeepest;
     places.push_back({.file = {}, .line = *located.worst_line + 1, .note = std::string(note.in(language))});

@@ -64,6 +64,7 @@ class JoinedCertificates {
       };
       if (std::none_of(all.gaps.begin(), all.gaps.end(), is_same)) all.gaps.push_back(gap);
     }
+    for (const verification::UnknownPlaces& places : other.unknown_places) add(places, all.unknown_places);
     for (const std::string& tool : other.bare_tools)
       if (std::find(all.bare_tools.begin(), all.bare_tools.end(), tool) == all.bare_tools.end())
         all.bare_tools.push_back(tool);
@@ -71,6 +72,25 @@ class JoinedCertificates {
 
  private:
   using KnownContact = std::tuple<dialect::DiagnosticId, std::size_t, std::size_t, std::uint32_t, Mover>;
+
+  static void add(const verification::UnknownPlaces& places, std::vector<verification::UnknownPlaces>& all) {
+    const auto is_same = [&](const verification::UnknownPlaces& each) { return each.after == places.after; };
+    const auto known = std::find_if(all.begin(), all.end(), is_same);
+    if (known == all.end()) {
+      all.push_back(places);
+      return;
+    }
+    known->lines.insert(known->lines.end(), places.lines.begin(), places.lines.end());
+    std::sort(known->lines.begin(), known->lines.end());
+    auto last = known->lines.begin();  // What overlaps becomes one.
+    for (auto each = last + 1; each != known->lines.end(); ++each) {
+      if (each->first <= last->second)
+        last->second = std::max(last->second, each->second);
+      else
+        *++last = *each;
+    }
+    known->lines.erase(last + 1, known->lines.end());
+  }
 
   /// Returns how many of these have not been known; near misses and hints do not count.
   std::size_t note(const std::vector<Contact>& contacts) {

@@ -102,6 +102,7 @@ class BlockPass {
         tool_(before.tool()),
         is_place_known_(before.is_place_known()) {
     if (const Stretch* const stretch = before.stretch_before()) stretch_before_ = *stretch;
+    was_place_known_ = before.was_place_known();
     for (const SurroundingsLimit& limit : wanted.limits)
       was_beyond_.push_back(limit.is_of_material() || limit.is_beyond(surroundings.neighbors_of(before)));
   }
@@ -115,6 +116,7 @@ class BlockPass {
       change_place(piece.timed.ends_at_known_place);
       tool_ = change->tool;
       changes_tool_ = true;
+      stretch_before_.reset();
     }
   }
 
@@ -131,11 +133,10 @@ class BlockPass {
  private:
   static constexpr std::size_t kBefore = std::numeric_limits<std::size_t>::max();
 
-  /// From here on other bodies are compared: what has been touched before counts no more.
+  /// From here on what is on the spindle is compared, or not.
   void change_place(bool is_known) {
     examine();
     is_place_known_ = is_known;
-    stretch_before_.reset();
   }
 
   void examine() {
@@ -147,6 +148,7 @@ class BlockPass {
         for (const double time : crossings_on(wanted_.limits[i], stretch, bodies))
           passed_.crossings.push_back({.time = time, .limit = i});
     stretch_before_ = stretches_.back();
+    was_place_known_ = is_place_known_;
     stretches_.clear();
     lines_.clear();
   }
@@ -168,10 +170,13 @@ class BlockPass {
     verification::ContactLog log;
     const std::vector<Encounter> found = contacts_on(stretches_, bodies);
     // The stretch before matters only where the first one touches something.
-    if (stretch_before_ && !found.empty() && found.front().stretch == 0)
+    if (stretch_before_ && !found.empty() && found.front().stretch == 0) {
+      const BodyPairs& compared = surroundings_.bodies_with(tool_, was_place_known_, machine_);
       log.take(
-          contacts_on({&*stretch_before_, 1}, bodies),
-          [&](std::size_t) -> StretchPlace { return {.number = 0, .line = kBefore, .frame = frame_}; }, bodies, tool_);
+          contacts_on({&*stretch_before_, 1}, compared),
+          [&](std::size_t) -> StretchPlace { return {.number = 0, .line = kBefore, .frame = frame_}; }, compared,
+          tool_);
+    }
     const auto place_of = [&](std::size_t stretch) -> StretchPlace {
       return {.number = stretch + 1, .line = lines_[stretch], .frame = frame_, .is_in_inches = is_in_inches_};
     };
@@ -196,6 +201,7 @@ class BlockPass {
   execution::ToolCode tool_;
   bool is_place_known_;
   std::optional<Stretch> stretch_before_;
+  bool was_place_known_ = true;   ///< On that stretch.
   std::vector<bool> was_beyond_;  ///< Each limit, at the start.
   bool changes_tool_ = false;
   std::vector<Stretch> stretches_;

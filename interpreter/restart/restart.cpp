@@ -39,6 +39,11 @@ static constexpr Text kOffProgram{
     "il cambio utensile ha lasciato la punta fuori dalla quota programmata, e da lì il programma non proseguirebbe "
     "allo "
     "stesso modo"};
+static constexpr Text kTipUnknown{
+    "a tool before this one has no length (machine.tools), so it is not known where the tip is until Z has a "
+    "coordinate",
+    "un utensile prima di questo non ha lunghezza (machine.tools), quindi non si sa dove sia la punta finché Z non ha "
+    "una quota"};
 static constexpr Text kChangedLow{
     "the frame has changed with the tool in the cut, and no rapid has followed",
     "il sistema di riferimento è cambiato con l'utensile nel pezzo, senza un rapido dopo"};
@@ -256,6 +261,10 @@ RestartAttempt attempt(std::string_view text, const RestartOptions& options, con
   RestartAttempt made{.program = {}, .obstacle = survey.obstacle(options.line), .overtravel = {}};
   if (made.obstacle != RestartObstacle::None) return made;
   const RestartPoint& point = survey.point();
+  if (!point.is_tip_known) {
+    made.obstacle = RestartObstacle::TipUnknown;
+    return made;
+  }
   made.program = restart_preamble(point, options, line_end_of(text));
   const std::size_t preamble_lines = count_lines(made.program);
   const std::size_t begin = find_line(text, options.line).offset;
@@ -350,6 +359,8 @@ const Text& reason(RestartObstacle obstacle) {
       return kRadiusUnknown;
     case RestartObstacle::OffProgram:
       return kOffProgram;
+    case RestartObstacle::TipUnknown:
+      return kTipUnknown;
     case RestartObstacle::FrameChangedLow:
       return kChangedLow;
     case RestartObstacle::FaceLooksDown:

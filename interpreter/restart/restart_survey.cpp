@@ -127,6 +127,7 @@ void RestartSurvey::look_at(const running::Block& block) {
 void RestartSurvey::find_tip() {
   const auto keep = [&](const simulation::MachineCourse& course, const TipLog& log) {
     now_.machine_tip = course.tip();
+    now_.is_tip_known = course.is_tip_known();
     now_.highest = log.highest();
     now_.highest_in_frame = log.highest_in_frame();
     now_.fed = log.fed();
@@ -149,8 +150,8 @@ void RestartSurvey::find_tip() {
   const State& state = now_.state;
   now_.is_beside_contour = course_.is_beside_contour();
   const bool has_moved = state.motion() != nullptr;
-  now_.is_off_program =
-      has_moved && (now_.is_beside_contour || differ(now_.machine_tip.tip, state.to_machine(state.position.tip)));
+  now_.is_off_program = has_moved && (now_.is_beside_contour || !now_.is_tip_known ||
+                                      differ(now_.machine_tip.tip, state.to_machine(state.position.tip)));
   now_.tip = now_.is_off_program ? tip_ : state.position.tip;  // As exact as in the program.
 }
 

@@ -25,6 +25,7 @@ enum class RestartObstacle : std::uint8_t {
   Compensation,     ///< G41 or G42 is in force.
   OnContour,        ///< The tool is still offset after G40, and the rest would run differently from there.
   RadiusUnknown,    ///< After G40 the tool is still offset from the contour, by an unknown radius.
+  TipUnknown,       ///< A tool without a length has left the machine nobody knows where.
   OffProgram,       ///< A tool change has left the tip off the program, and the rest would run differently from there.
   FrameChangedLow,  ///< The frame has changed with the tool in the cut, and no rapid has followed.
   FaceLooksDown,    ///< The face's Z points down, so it cannot be approached from above.
@@ -72,6 +73,7 @@ struct RestartPoint {
   geometry::Vec3 tip = geometry::Vec3::Zero();  ///< Position of the tip in the frame in force, mm.
   bool is_beside_contour = false;               ///< Compensation keeps the tool off the program.
   bool is_off_program = false;                  ///< The tip is off the program, by compensation or by a tool change.
+  bool is_tip_known = true;                     ///< Not after a tool without a length (machine.tools).
   running::Registers registers{};
   std::uint32_t known_registers = 0;  ///< Bit n: Vn was assigned by the program or set at the start.
   std::string face_line;              ///< The G24, G28 or G29 in force as written.

@@ -30,6 +30,8 @@ class MachineCourse {
 
   /// The tip after the motions reported; machine frame.
   geometry::Pose tip() const { return position_.tip(); }
+  /// Whether the tip is there: not with a tool of known length after one of another, unknown length (TipPosition).
+  bool is_tip_known() const { return !position_.unknown_offset() || !position_.is_length_known(); }
   /// Whether motions wait for the ones after them.
   bool holds_motions() const { return compensation_.holds_motions(); }
   /// Whether the tool is off the programmed path because of compensation, and no motion has led it back.

@@ -51,7 +51,7 @@ static Timing::Standing standing(const Simulation& before, const running::Runner
           .tip = at_rest(before.sample().tip, programmed, machine.motion),
           .programmed = programmed,
           .tool = tool,
-          .is_tip_known = tool.is_known && before.is_place_known(),
+          .unknown = before.unknown_offset(),
           .frame_axes = state.face_mounted ? state.face.axes : geometry::Mat3(geometry::Mat3::Identity()),
           .spindle = before.spindle(),
           .spindle_speed = state.spindle_speed};
@@ -70,7 +70,9 @@ Simulation::Simulation(const Simulation& before, const running::Runner& run, con
       earlier_stretch_(before.last_stretch_ ? std::make_shared<const motion::Stretch>(*before.last_stretch_)
                                             : before.earlier_stretch_),
       is_place_known_(before.is_place_known()),
+      unknown_offset_(before.unknown_offset_),
       has_moved_tool_(before.has_moved_tool_),
+      was_place_known_(before.was_place_known_),
       last_motion_(before.last_motion_),
       begin_(timing_.tip()),
       start_tool_length_(before.tool_length_),
@@ -179,7 +181,7 @@ void Simulation::pass_piece() {
   if (const auto* const change = std::get_if<running::ToolEvent>(&event.what)) {
     tool_ = change->tool;
     tool_length_ = machine_->tool_length(tool_);
-    is_place_known_ = pieces_[passed_].cause->ends_at_known_place;
+    pass_place();
     has_moved_tool_ = false;
   }
   if (const auto& stretch = pieces_[passed_].stretch) {
@@ -188,11 +190,18 @@ void Simulation::pass_piece() {
     if (!stretch->ends_move)
       travelled_ += stretch->parameter_at(stretch->start + stretch->duration) - stretch->parameter_at(stretch->start);
     last_stretch_ = stretch;
-    has_moved_tool_ = pieces_[passed_].cause->is_at_known_place();
-    if (stretch->ends_move) is_place_known_ = pieces_[passed_].cause->ends_at_known_place;
+    has_moved_tool_ = true;
+    was_place_known_ = pieces_[passed_].cause->is_at_known_place();
+    if (stretch->ends_move) pass_place();
     last_motion_ = pieces_[passed_].cause;
   }
   ++passed_;
+}
+
+/// Takes over what is known of the place after the piece.
+void Simulation::pass_place() {
+  is_place_known_ = pieces_[passed_].cause->ends_at_known_place;
+  unknown_offset_ = pieces_[passed_].cause->unknown_offset;
 }
 
 /// Reads until the next piece is known. Returns false if the machine comes to rest before another block is read, or at

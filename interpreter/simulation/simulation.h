@@ -95,9 +95,12 @@ class Simulation {
   motion::Sample sample() const;
   /// Whether it is known where the machine is: not after a tool whose length is not known (TipPosition).
   bool is_place_known() const;
-  /// The last stretch that has been completed with the mounted tool; null if it has not been moved yet, or it is not
-  /// known where.
+  /// Of the tip, at the present or, within a motion, before it.
+  UnknownOffset unknown_offset() const { return unknown_offset_ ? *unknown_offset_ : UnknownOffset(); }
+  /// The last stretch that has been completed with the mounted tool; null if it has not been moved yet.
   const motion::Stretch* stretch_before() const;
+  /// Whether it was known where the machine was all along that stretch.
+  bool was_place_known() const { return was_place_known_; }
   const TimedMachine& machine() const { return *machine_; }
   /// The mounted tool: within an M06 the one before.
   const execution::ToolCode& tool() const { return tool_; }
@@ -138,6 +141,7 @@ class Simulation {
   void start_block();
   void continue_block(double seconds, const BeforeReading& before_reading);
   void pass_piece();
+  void pass_place();
   bool read_ahead(const BeforeReading& before_reading);
   bool may_read_ahead();
   void plan(std::span<const running::Event> events);
@@ -155,8 +159,10 @@ class Simulation {
   std::optional<motion::Stretch> last_stretch_;
   /// Of the run from before the constructor; or null.
   std::shared_ptr<const motion::Stretch> earlier_stretch_;
-  bool is_place_known_ = true;   ///< Where the machine was before the current piece.
-  bool has_moved_tool_ = false;  ///< Whether a stretch has been completed since the last tool change, at known places.
+  bool is_place_known_ = true;                           ///< Where the machine was before the current piece.
+  std::shared_ptr<const UnknownOffset> unknown_offset_;  ///< Of the tip, there; null where it is 0.
+  bool has_moved_tool_ = false;  ///< Whether a stretch has been completed since the last tool change.
+  bool was_place_known_ = true;  ///< On the last stretch.
   /// Last motion with a completed stretch, possibly from before the constructor; or null.
   std::shared_ptr<const TimedEvent> last_motion_;
   geometry::Pose begin_;  ///< Tip at the start, with a tool of start_tool_length_.

@@ -85,7 +85,7 @@ Timing::Timing(const TimedMachine& machine, Listeners listeners)
 
 Timing::Timing(const TimedMachine& machine, const Standing& standing) : Timing(machine, Listeners{}) {
   planner_.rest(standing.time);
-  position_ = {standing.tip, standing.programmed, standing.tool, standing.frame_axes, standing.is_tip_known};
+  position_ = {standing.tip, standing.programmed, standing.tool, standing.frame_axes, standing.unknown};
   spindle_ = standing.spindle;
   spindle_speed_ = standing.spindle_speed;
 }
@@ -109,6 +109,11 @@ void Timing::take(const running::Event& event) {
   enqueue(event);
 }
 
+std::shared_ptr<const UnknownOffset> Timing::unknown_offset() const {
+  const UnknownOffset* const offset = position_.unknown_offset();
+  return offset ? std::make_shared<const UnknownOffset>(*offset) : nullptr;
+}
+
 Timing::WaitingEvent& Timing::enqueue(const running::Event& event) {
   if (waiting_.size() >= kMaxWaiting) come_to_rest();
   WaitingEvent& waiting = waiting_.emplace_back();
@@ -127,6 +132,7 @@ void Timing::push_motion() {
   waiting.timed.begins_at_known_place = is_place_known();
   position_.follow(move, planned);
   waiting.timed.ends_at_known_place = is_place_known();
+  waiting.timed.unknown_offset = unknown_offset();
   planned.exact_stop = std::exchange(stops_exactly_, false);
   // In three-axis interpolation the channel is emptied; in five-axis interpolation the motion continues at once
   // (I.3.8).
@@ -185,7 +191,8 @@ void Timing::rest(const running::Event& event, double seconds) {
                       .start = start,
                       .duration = seconds,
                       .begins_at_known_place = was_place_known,
-                      .ends_at_known_place = is_place_known()});
+                      .ends_at_known_place = is_place_known(),
+                      .unknown_offset = unknown_offset()});
 }
 
 /// Seconds for which the machine stands still for the event; negative if it does not stop.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -57,6 +58,7 @@ struct TimedEvent {
   /// For a motion and a tool change: whether it is known where the machine is before and after it (TipPosition).
   bool begins_at_known_place = true;
   bool ends_at_known_place = true;
+  std::shared_ptr<const UnknownOffset> unknown_offset;  ///< Of the tip after it; null where it is 0.
 
   bool is_at_known_place() const { return begins_at_known_place && ends_at_known_place; }
 };
@@ -80,7 +82,7 @@ class Timing {
     geometry::Pose tip;         ///< Machine frame.
     geometry::Pose programmed;  ///< Programmed position, machine frame; differs from `tip` after a tool change.
     ToolLength tool;
-    bool is_tip_known = true;                                ///< Whether the tip is there (TipPosition).
+    UnknownOffset unknown;
     geometry::Mat3 frame_axes = geometry::Mat3::Identity();  ///< Axes of the frame in force, machine frame.
     SpindleMotion spindle;
     double spindle_speed = 0;  ///< The last S; 0 before any.
@@ -133,6 +135,7 @@ class Timing {
   };
 
   bool is_place_known() const { return position_.is_place_known(machine_->motion.kinematics); }
+  std::shared_ptr<const UnknownOffset> unknown_offset() const;
   WaitingEvent& enqueue(const running::Event& event);
   void push_motion();
   void take_stretches();

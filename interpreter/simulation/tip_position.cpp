@@ -10,16 +10,6 @@ using geometry::Vec3;
 /// Of vectors of about length 1: what is shorter comes from rounding.
 static constexpr double kNothing = 1e-9;
 
-TipPosition::TipPosition(const geometry::Pose& tip, const geometry::Pose& programmed, const ToolLength& tool,
-                         const Mat3& frame_axes, bool is_tip_known)
-    : programmed_(programmed),
-      off_program_(tip.tip - programmed.tip),
-      frame_axes_(frame_axes),
-      tool_(tool),
-      is_unknown_off_(!is_tip_known) {
-  if (!is_tip_known) unknown_ = Mat3::Identity();
-}
-
 /// The step of the tip for each millimeter of the tool, in the machine frame.
 Vec3 TipPosition::tool_axis(const kinematics::Kinematics& kinematics) const {
   const kinematics::Coordinates standing = joints(kinematics);
@@ -31,29 +21,30 @@ Vec3 TipPosition::tool_axis(const kinematics::Kinematics& kinematics) const {
 
 /// Whether the spindle is where it was before a tool was mounted whose length is not known.
 bool TipPosition::is_spindle_known(const kinematics::Kinematics& kinematics) const {
-  return unknown_.isZero(0) && !by_tool_.isZero(0) && (by_tool_ + tool_axis(kinematics)).isZero(kNothing);
+  return unknown_.along.isZero(0) && !unknown_.by_tool.isZero(0) &&
+         (unknown_.by_tool + tool_axis(kinematics)).isZero(kNothing);
 }
 
 void TipPosition::add_unknown(const Vec3& along) {
   if (along.isZero(kNothing)) return;
   for (int i = 0; i < 3; ++i) {
-    if (unknown_.col(i).isZero(0)) {
-      unknown_.col(i) = along;
+    if (unknown_.along.col(i).isZero(0)) {
+      unknown_.along.col(i) = along;
       return;
     }
-    if (unknown_.col(i).cross(along).isZero(kNothing)) return;
+    if (unknown_.along.col(i).cross(along).isZero(kNothing)) return;
   }
-  unknown_ = Mat3::Identity();
+  unknown_.along = Mat3::Identity();
 }
 
 /// Applies what a motion keeps of the distances to the program.
 void TipPosition::keep_unknown(const Mat3& kept) {
-  by_tool_ = kept * by_tool_;
-  if (by_tool_.isZero(kNothing)) by_tool_.setZero();
-  unknown_ = kept * unknown_;
+  unknown_.by_tool = kept * unknown_.by_tool;
+  if (unknown_.by_tool.isZero(kNothing)) unknown_.by_tool.setZero();
+  unknown_.along = kept * unknown_.along;
   for (int i = 0; i < 3; ++i)
-    if (unknown_.col(i).isZero(kNothing)) unknown_.col(i).setZero();
-  is_unknown_off_ = !by_tool_.isZero(0) || !unknown_.isZero(0);
+    if (unknown_.along.col(i).isZero(kNothing)) unknown_.along.col(i).setZero();
+  is_unknown_off_ = !unknown_.is_zero();
 }
 
 void TipPosition::follow(const running::MoveEvent& move, kinematics::Move& planned) {
@@ -79,13 +70,13 @@ void TipPosition::follow(const running::MoveEvent& move, kinematics::Move& plann
 void TipPosition::mount(const kinematics::Kinematics& kinematics, const ToolLength& tool) {
   if (!tool.is_known || !tool_.is_known) {
     const Vec3 axis = tool_axis(kinematics);
-    if (!tool_.is_known) add_unknown(by_tool_ + axis);
-    by_tool_ = tool.is_known ? Vec3::Zero() : Vec3(-axis);
+    if (!tool_.is_known) add_unknown(unknown_.by_tool + axis);
+    unknown_.by_tool = tool.is_known ? Vec3::Zero() : Vec3(-axis);
   }
   const kinematics::Coordinates standing = joints(kinematics);
   const bool is_as_long = tool.mm == tool_.mm;
   tool_ = tool;
-  is_unknown_off_ = !by_tool_.isZero(0) || !unknown_.isZero(0);
+  is_unknown_off_ = !unknown_.is_zero();
   if (!is_as_long) off_program_ = kinematics::forward(kinematics, standing, tool.mm).head<3>() - programmed_.tip;
 }
 

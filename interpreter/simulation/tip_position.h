@@ -12,6 +12,14 @@ struct ToolLength {
   bool is_known = true;
 };
 
+/// How far the tip is from where a run has it: lengths that are not known, times these vectors of the machine frame.
+struct UnknownOffset {
+  geometry::Vec3 by_tool = geometry::Vec3::Zero();  ///< By the length of the mounted tool, if that is not known.
+  geometry::Mat3 along = geometry::Mat3::Zero();    ///< By the lengths of tools before it: along each column.
+
+  bool is_zero() const { return by_tool.isZero(0) && along.isZero(0); }
+};
+
 /// Actual and programmed position of the tip. A tool change moves no joint, so the tip of a longer tool is lower after
 /// it. The program continues from the old position: axes that the next motions omit, or move by a distance (G91), keep
 /// the difference, and axes with coordinates reach those (I.3.4, D33).
@@ -21,10 +29,15 @@ struct ToolLength {
 class TipPosition {
  public:
   explicit TipPosition(const geometry::Pose& home) : programmed_(home) {}
-  /// `tip`, `programmed` and the axes of the frame in force are in the machine frame. A tip that is not known is again
-  /// when all axes have got a coordinate.
+  /// `tip`, `programmed` and the axes of the frame in force are in the machine frame.
   TipPosition(const geometry::Pose& tip, const geometry::Pose& programmed, const ToolLength& tool,
-              const geometry::Mat3& frame_axes, bool is_tip_known);
+              const geometry::Mat3& frame_axes, const UnknownOffset& unknown = {})
+      : programmed_(programmed),
+        off_program_(tip.tip - programmed.tip),
+        frame_axes_(frame_axes),
+        tool_(tool),
+        is_unknown_off_(!unknown.is_zero()),
+        unknown_(unknown) {}
 
   /// Moves to the end of a motion. Shifts `planned`, which starts and ends at programmed positions, to the path the
   /// machine takes.
@@ -38,6 +51,9 @@ class TipPosition {
     return kinematics::inverse(kinematics, kinematics::coordinates(tip()), tool_.mm);
   }
   double tool_length() const { return tool_.mm; }
+  bool is_length_known() const { return tool_.is_known; }
+  /// Null where it is 0.
+  const UnknownOffset* unknown_offset() const { return is_unknown_off_ ? &unknown_ : nullptr; }
   /// Whether joints() are right.
   bool is_place_known(const kinematics::Kinematics& kinematics) const {
     return is_unknown_off_ ? !tool_.is_known && is_spindle_known(kinematics) : tool_.is_known;
@@ -53,11 +69,8 @@ class TipPosition {
   geometry::Vec3 off_program_ = geometry::Vec3::Zero();     ///< Vector from the programmed position to the tip.
   geometry::Mat3 frame_axes_ = geometry::Mat3::Identity();  ///< Axes of the frame in force, machine frame.
   ToolLength tool_;
-  bool is_unknown_off_ = false;  ///< Whether one of the following is not 0.
-  /// The tip is off `off_program_` by the length of the mounted tool, which is not known, times this vector.
-  geometry::Vec3 by_tool_ = geometry::Vec3::Zero();
-  /// ... and by other distances that are not known along each column.
-  geometry::Mat3 unknown_ = geometry::Mat3::Zero();
+  bool is_unknown_off_ = false;  ///< Whether that is not 0:
+  UnknownOffset unknown_;
 };
 
 }  // namespace isocnc::simulation

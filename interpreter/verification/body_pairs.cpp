@@ -62,7 +62,6 @@ class PairsMaker {
 
  private:
   void add_tool() {
-    if (!tool_.is_place_known) return;
     if (tool_.bodies) {
       add_part(ToolPart::Cutter, tool_.bodies->cutter, 0);
       add_part(ToolPart::Shank, tool_.bodies->shank, 0);
@@ -90,7 +89,6 @@ class PairsMaker {
   void add_machine() {
     for (const SceneBody& body : scene_.machine) {
       if (carries_spindle(body.on)) {
-        if (!tool_.is_place_known) continue;
         add_body(body, body.on, Vec3::Zero());
         // The tool moves towards what carries it: along Y and Z past a gantry, and a head turns it towards the ram.
         const Link last = kinematics_.kind == MachineKind::Head ? Link::Z : Link::Y;
@@ -143,6 +141,8 @@ class PairsMaker {
     const MovingPart& part = result_.parts[part_index];
     const Obstacle& obstacle = result_.obstacles[obstacle_index];
     if (!may_meet(part, obstacle)) return;
+    const bool is_of_spindle = part.revolved || carries_spindle(part.on) || carries_spindle(obstacle.on);
+    if (is_of_spindle && !tool_.is_place_known) return;
     BodyPair pair{.part = part_index, .obstacle = obstacle_index, .revolved = part.revolved, .limit = kContactDistance};
     if (obstacle.body->role == BodyRole::Target && part.of_spindle == ToolPart::Cutter) {
       const double depth = depth_below(scene_.target_tolerance);

@@ -94,7 +94,9 @@ struct MountedTool {
   const ToolBodies* bodies = nullptr;  ///< Null if nothing is known of it.
   std::string name;                    ///< `T101001`; empty for none.
   double length = 0;                   ///< mm
-  bool is_place_known = true;          ///< Otherwise nothing of it, of the nose and of what carries it is compared.
+  /// Otherwise nothing of it, of the nose and of what carries it is compared: parts and obstacles are the same, with
+  /// fewer pairs.
+  bool is_place_known = true;
 };
 
 /// How messages call a part of a tool (`T101001`), or the nose.

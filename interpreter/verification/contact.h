@@ -74,13 +74,12 @@ struct Unverified {
   double spacing = 0;       ///< Of ResolutionTooFine: one that would fit, mm.
 };
 
-/// Motions with a tool of known length that are not verified, since a tool before it had none: it is not known where
-/// they begin.
-struct UnknownPlace {
-  std::string after;          ///< That tool, as `T101001`.
-  std::size_t line = 0;       ///< From the tool change on; from 0.
-  std::size_t last_line = 0;  ///< Up to this one. After it the program has led all axes to known places.
-  bool has_more = false;      ///< It is so again later, after the same tool.
+/// Where the machine moves with a tool of known length, and is not compared, since a tool before it had none: it is not
+/// known where it is.
+struct UnknownPlaces {
+  std::string after;  ///< That tool, as `T101001`.
+  /// From a tool change to the last motion that does not begin and end at a known place; from 0, by their starts.
+  std::vector<std::pair<std::size_t, std::size_t>> lines;
 };
 
 /// What has been proven, and what not.
@@ -100,7 +99,7 @@ struct Certificate {
   bool has_nose = true;                 ///< Whether the spindle nose is described.
   std::vector<std::string> bare_tools;  ///< Tools without a holder, as `T101001`, whose length is known.
   std::vector<Unverified> gaps;
-  std::vector<UnknownPlace> unknown_places;  ///< One for each tool.
+  std::vector<UnknownPlaces> unknown_places;  ///< One for each tool.
   /// Bodies of the machine that are not compared, since they touch each other from the start: `gantry` and `rails`.
   std::vector<std::pair<std::string, std::string>> touching;
   std::size_t more_contacts = 0;            ///< Contacts and near misses that repeat others and are not kept.

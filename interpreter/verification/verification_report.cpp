@@ -58,19 +58,32 @@ static std::string in_words(const Unverified& gap, Language language) {
   return dialect::format(kUndecided, language, line);
 }
 
-static std::string in_words(const UnknownPlace& place, Language language) {
-  static constexpr Text kLines = {"lines {} to {} (it is not known where {} leaves the machine)",
-                                  "linee da {} a {} (non si sa dove {} lascia la macchina)"};
-  static constexpr Text kAndOthers = {"lines {} to {} and others (it is not known where {} leaves the machine)",
-                                      "linee da {} a {} e altre (non si sa dove {} lascia la macchina)"};
-  return dialect::format(place.has_more ? kAndOthers : kLines, language, place.line + 1, place.last_line + 1,
-                         place.after);
+/// `lines 3 to 5 and 8`.
+static std::string in_words(const UnknownPlaces& places, Language language) {
+  constexpr std::size_t kShown = 4;
+  std::vector<std::string> parts;
+  for (const auto& [first, last] : places.lines) {
+    if (parts.size() == kShown) break;
+    parts.push_back(first == last ? fmt::format("{}", first + 1)
+                                  : dialect::format(Text{"{} to {}", "da {} a {}"}, language, first + 1, last + 1));
+  }
+  const std::size_t more = places.lines.size() - parts.size();
+  if (more > 0) parts.push_back(dialect::format(Text{"{} more places", "altri {} punti"}, language, more));
+  std::string lines = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    lines.append(i + 1 < parts.size() ? ", " : Text{" and ", " e "}.in(language)).append(parts[i]);
+  static constexpr Text kLine = {"line {} (it is not known where {} leaves the machine)",
+                                 "linea {} (non si sa dove {} lascia la macchina)"};
+  static constexpr Text kLines = {"lines {} (it is not known where {} leaves the machine)",
+                                  "linee {} (non si sa dove {} lascia la macchina)"};
+  const bool is_one = places.lines.size() == 1 && places.lines[0].first == places.lines[0].second;
+  return dialect::format(is_one ? kLine : kLines, language, lines, places.after);
 }
 
 static std::vector<std::string> not_verified(const Certificate& certificate, Language language) {
   std::vector<std::string> gaps;
   for (const Unverified& each : certificate.gaps) gaps.push_back(in_words(each, language));
-  for (const UnknownPlace& each : certificate.unknown_places) gaps.push_back(in_words(each, language));
+  for (const UnknownPlaces& each : certificate.unknown_places) gaps.push_back(in_words(each, language));
   if (!certificate.has_setup)
     gaps.emplace_back(Text{"no setup is for this program", "nessun attrezzaggio è per questo programma"}.in(language));
   if (const auto& window = certificate.window)

@@ -200,9 +200,9 @@ static void add_findings(simulation::RunOutcome& outcome, const std::vector<Cont
   }
   for (const Unverified& gap : certificate.gaps) {
     found.push_back({.line = gap.line, .finding = finding_of(gap)});
-    for (const UnknownPlace& each : certificate.unknown_places)
+    for (const UnknownPlaces& each : certificate.unknown_places)
       if (gap.gap == Gap::ToolWithoutLength && gap.name.in(dialect::Language::English) == each.after)
-        found.back().last_line = each.last_line;
+        found.back().last_line = each.lines.back().second;
   }
   const auto by_line = [](const RunFinding& a, const RunFinding& b) { return a.line < b.line; };
   std::stable_sort(found.begin(), found.end(), by_line);

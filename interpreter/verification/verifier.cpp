@@ -51,7 +51,6 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
 void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
   if (stretch.ends_move) ++certificate_.motions;
   if (!is_place_known_ && event.is_at_known_place()) arrive_at_known_place();
-  if (unknown_place_) unknown_place_->last_line = event.event.line;
   stretches_.push_back(stretch);
   waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1, .is_in_inches = event.event.is_in_inches});
   if (material_) material_->take(stretch, event, frames_.back());
@@ -61,6 +60,11 @@ void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent
 void Verifier::take(const simulation::TimedEvent& event) {
   if (const auto* const frame = std::get_if<running::FrameEvent>(&event.event.what)) frames_.push_back(frame->in_force);
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what)) mount(tool->tool, event);
+  // Without a stretch, too: what is no motion with a length of 0 may be one.
+  if (event.move && !event.is_at_known_place()) {
+    note_unknown_place(event.event.line);
+    is_unknown_before_ = event.unknown_offset && !event.unknown_offset->along.isZero(0);
+  }
   if (material_) material_->take(event);
 }
 
@@ -88,7 +92,15 @@ void Verifier::mount(const execution::ToolCode& tool, const simulation::TimedEve
   const double time = timed.start + timed.duration;
   examine_waiting();
   log_.close_all();
-  end_unknown_place();
+  const bool has_known_length = machine_.length_of(tool).is_known;
+  if (!timed.ends_at_known_place && !machine_.length_of(tool_).is_known && !is_unknown_before_) unknown_after_ = tool_;
+  is_unknown_before_ = timed.unknown_offset && !timed.unknown_offset->along.isZero(0);
+  if (timed.ends_at_known_place || !has_known_length) {
+    unknown_from_.reset();
+  } else if (!unknown_from_) {
+    unknown_from_ = event.line;
+    is_unknown_noted_ = false;
+  }
   tool_ = tool;
   const MountedTool mounted = mounted_tool(scene_, machine_, tool, timed.ends_at_known_place);
   is_place_known_ = mounted.is_place_known;
@@ -98,11 +110,8 @@ void Verifier::mount(const execution::ToolCode& tool, const simulation::TimedEve
   // What the tool touches where it is mounted.
   stretches_.push_back(rest_at(joints_, mounted.length, time));
   waiting_.push_back({.line = event.line, .frame = frames_.size() - 1, .is_in_inches = event.is_in_inches});
-  if (!machine_.length_of(tool).is_known) {
-    last_without_length_ = tool;
-  } else if (!is_place_known_) {
-    unknown_place_ = {.after = running::tool_name(last_without_length_), .line = event.line, .last_line = event.line};
-  }
+  // Where it is mounted, it may touch something.
+  if (unknown_from_ && tool != execution::ToolCode()) note_unknown_place(event.line);
   const bool has_length = mounted.length > 0;
   const bool has_shape = mounted.bodies && mounted.bodies->cutter;
   const bool is_empty = mounted.name.empty();  // After T000000 nothing of a tool is there.
@@ -118,23 +127,20 @@ void Verifier::mount(const execution::ToolCode& tool, const simulation::TimedEve
 /// Compares from here on what is on the spindle, too.
 void Verifier::arrive_at_known_place() {
   examine_waiting();
-  log_.close_all();
-  end_unknown_place();
+  unknown_from_.reset();
   is_place_known_ = true;
   bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted_tool(scene_, machine_, tool_), origin_);
 }
 
-/// Notes where it has been unknown, if the machine has moved there.
-void Verifier::end_unknown_place() {
-  const std::optional<UnknownPlace> ended = std::exchange(unknown_place_, std::nullopt);
-  if (!ended || ended->last_line == ended->line) return;
-  std::vector<UnknownPlace>& all = certificate_.unknown_places;
-  const auto known =
-      std::find_if(all.begin(), all.end(), [&](const UnknownPlace& each) { return each.after == ended->after; });
-  if (known == all.end())
-    all.push_back(*ended);
-  else
-    known->has_more = true;
+/// Notes that a line is not verified for that reason.
+void Verifier::note_unknown_place(std::size_t line) {
+  if (!unknown_from_) return;
+  std::vector<UnknownPlaces>& all = certificate_.unknown_places;
+  const std::string after = running::tool_name(unknown_after_);
+  auto known = std::find_if(all.begin(), all.end(), [&](const UnknownPlaces& each) { return each.after == after; });
+  if (known == all.end()) known = all.insert(all.end(), {.after = after, .lines = {}});
+  if (!std::exchange(is_unknown_noted_, true)) known->lines.emplace_back(*unknown_from_, line);
+  known->lines.back().second = line;
 }
 
 void Verifier::examine_waiting() {
@@ -179,7 +185,6 @@ void Verifier::examine_waiting() {
 void Verifier::finish() {
   examine_waiting();
   log_.close_all();
-  end_unknown_place();
   contacts_ = log_.contacts();
   certificate_.contacts = log_.contact_count();
   certificate_.more_contacts = log_.left_out();

@@ -48,7 +48,7 @@ class Verifier {
 
   void mount(const execution::ToolCode& tool, const simulation::TimedEvent& event);
   void arrive_at_known_place();
-  void end_unknown_place();
+  void note_unknown_place(std::size_t line);
   void examine_waiting();
   void finish_material();
 
@@ -57,10 +57,12 @@ class Verifier {
   geometry::Vec3 origin_;
   WorkTogether work_together_;
   execution::ToolCode tool_;
-  bool is_place_known_ = true;  ///< Of the machine: whether bodies_ has what is on its spindle.
-  execution::ToolCode last_without_length_;
-  std::optional<UnknownPlace>
-      unknown_place_;  ///< Where the machine is with a tool of known length, but not known where.
+  bool is_place_known_ = true;         ///< Of the machine: whether bodies_ has what is on its spindle.
+  execution::ToolCode unknown_after_;  ///< The tool that makes it unknown.
+  bool is_unknown_before_ = false;     ///< It has been unknown before the mounted tool as well.
+  /// The line of the tool change from which on the machine is, with a tool of known length, nobody knows where.
+  std::optional<std::size_t> unknown_from_;
+  bool is_unknown_noted_ = false;  ///< In the certificate.
   std::set<execution::ToolCode> known_gaps_;
   kinematics::Coordinates joints_;  ///< At the end of the last stretch that has been examined.
   BodyPairs bodies_;

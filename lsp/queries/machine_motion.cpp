@@ -154,12 +154,14 @@ class TipFollower {
   /// Starts before a line, with the tip where the program has it.
   TipFollower(const simulation::TimedMachine& machine, const LineRun& first, const ToolCode& tool)
       : machine_(machine),
+        tool_(tool),
         tip_(pose_in_machine(first.before), pose_in_machine(first.before), machine.length_of(tool),
-             first.before.face.axes, true) {}
+             first.before.face.axes) {}
 
   /// Returns the line's motion, if it has one; nothing where it is not known where the machine begins or ends it.
   std::optional<kinematics::Move> take(const LineRun& run, const ToolCode& tool) {
-    mount(machine_.length_of(tool));
+    if (tool != tool_) tip_.mount(machine_.motion.kinematics, machine_.length_of(tool));
+    tool_ = tool;
     if (!run.move) return std::nullopt;
     const bool was_place_known = is_place_known();
     tip_.take(running::FrameEvent{.face = run.moved_in.face});
@@ -171,10 +173,10 @@ class TipFollower {
   }
 
  private:
-  void mount(const simulation::ToolLength& tool) { tip_.mount(machine_.motion.kinematics, tool); }
   bool is_place_known() const { return tip_.is_place_known(machine_.motion.kinematics); }
 
   const simulation::TimedMachine& machine_;
+  ToolCode tool_;
   simulation::TipPosition tip_;
 };
 

@@ -126,6 +126,20 @@ TEST_F(Surroundings, AreCertifiedOnAllPathsThatAreRun) {
                                 HasSubstr("T101002 has no holder")));
 }
 
+/// What a tool without a length leaves open on any of the paths.
+TEST_F(Surroundings, TheCertificateNamesUnknownPlacesOfAllPaths) {
+  folder_.write("jump.iso",
+                "M06 T101001\nG00 X0 Y0 Z80\nIF VGPL = 0 GOTO N1\nM06 T101003\nG00 Z20\nM06 T101001\nG00 X9\n"
+                "N1 G00 X11\nZ80\nX0\nM02\n");
+  folder_.write("longer.iso",
+                "M06 T101003\nG00 X0 Y0 Z20\nM06 T101001\nIF VGPL = 1 GOTO N1\nG00 Z80\nN1 G00 X5\nZ90\nM02\n");
+  EXPECT_THAT(run({"isolint", "--verify", "--select", "E", "longer.iso"}).err, HasSubstr(", lines 3 to 7 (it is not"));
+  EXPECT_THAT(run({"isolint", "--verify", "--select", "W162", "jump.iso"}).out,
+              HasSubstr("= jump.iso:9:1: up to here it is not known where the machine is"));
+  EXPECT_THAT(run({"isolint", "--verify", "--select", "E", "jump.iso"}).err,
+              HasSubstr("T101003 has no length, lines 6 to 9 (it is not known where T101003 leaves the machine)"));
+}
+
 TEST_F(Surroundings, AreCertifiedByIsolint) {
   const CommandResult both = run({"isolint", "--verify", "free.iso", "hit.iso"});
   EXPECT_EQ(

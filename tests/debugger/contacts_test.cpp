@@ -219,16 +219,31 @@ TEST_F(Contacts, AreNoneWhereItIsNotKnownWhereTheToolIs) {
   EXPECT_EQ(client.run("reverseContinue").at("reason"), "entry");
 }
 
-/// What is changed by hand does not tell where it is.
-TEST_F(Contacts, AreNoneWhereThatIsNotKnownAfterAChangeByHand) {
-  launch("M06 T101003\nG00 X110 Y0 Z20\nM06 T101001\nG00 X210\nX310\nX320 Y0 Z20\nX330\nM02\n");
+/// What is changed by hand does not tell where it is, nor hide it.
+TEST_F(Contacts, AreNoneUntilZHasACoordinateAfterAChangeByHandAsWell) {
+  launch("M06 T101003\nG00 X150 Y0 Z20\nM06 T101001\nG00 X310\nZ20\nX330\nM02\n");
   turn_on(client);
   client.set_lines({5});
   client.run("configurationDone");
   client.request("setExpression", {{"expression", "OVERRIDE"}, {"value", "50"}});
   EXPECT_EQ(client.evaluate("CLEARANCE"), "-");
   EXPECT_EQ(client.run("continue").at("text"), "E152");
-  EXPECT_EQ(client.line(), 7);
+  EXPECT_EQ(client.line(), 6);
+}
+
+/// What does not hang on the spindle is compared wherever that is: its contact stops the run once.
+TEST_F(Contacts, OfWhatIsNotOnTheSpindleStopOnceWhereThatIsNotKnown) {
+  launch("M06 T101003\nG00 Z250\nB-40\nX8\nX10\nX12\nM02\n", R"({
+    "machine": {"home": {"z": 400}, "kinematics": {"type": "table", "bPoint": {"z": -50}},
+      "tools": [{"head": 1, "holder": 1, "tool": 3, "radius": 10}],
+      "bodies": [{"name": "rail", "on": "machine", "box": [[60, -90, -80], [100, 90, -20]]}]},
+    "setups": [{"paths": ["*.iso"], "clearance": 0, "fixtures": [
+      {"name": "clamp", "box": [[60, -20, 0], [80, 20, 40]]}]}]})");
+  turn_on(client);
+  const Moments moments = moments_of(client, 7);
+  ASSERT_EQ(moments.on.size(), 1u);
+  EXPECT_EQ(moments.on[0].line, 3);
+  EXPECT_EQ(moments.on, moments.back);
 }
 
 TEST_F(Contacts, CanHaveAConditionThatIsJudgedThere) {

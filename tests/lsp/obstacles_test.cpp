@@ -148,6 +148,8 @@ TEST_F(Obstacles, NothingIsSaidWhereTheToolIsNotKnownToBe) {
   EXPECT_EQ(last_of_hover(5), "nearest: clamp 2, 30 mm");
   open("M06 T101004\nG00 X0 Y0 Z10\nM06 T000000\nG00 X50\nM02\n");
   EXPECT_THAT(hover(3), Not(HasSubstr("clamp")));
+  open("M06 T101004\nG00 Z50\nG00 X5\nX6\nM06 T101001\nG00 Y0\nZ10\nX60\nM02\n");
+  EXPECT_EQ(last_of_hover(7), "nearest: clamp 2, 30 mm");
 }
 
 TEST_F(Obstacles, AToolWithoutAShapeIsSaidToBeLeftOut) {

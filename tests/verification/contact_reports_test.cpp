@@ -393,8 +393,60 @@ TEST(ContactReports, AfterAToolWithoutLengthNothingIsHitUntilZHasACoordinate) {
   EXPECT_TRUE(says(Language::Italian, "linee da 3 a 5 (non si sa dove T101002 lascia la macchina)"));
   const std::string again = "M06 T101002\nG00 X0 Y0 Z10\nM06 T101001\nG00 X50\n";
   EXPECT_NE(in_words(*shop.run(again + again + "M02\n").certificate, Language::English)
-                .find("lines 3 to 4 and others (it is not known where"),
+                .find("lines 3 to 4 and 7 to 8 (it is not known where"),
             std::string::npos);
+}
+
+/// What the certificate says of lines where it is not known where the machine is, and the last line of the first W162.
+std::string unknown_lines(const std::string& program) {
+  Shop shop;
+  shop.machine.tool_lengths[{1, 1, 4}] = 60;
+  const VerifiedRun run = shop.run(program);
+  std::string lines;
+  for (const UnknownPlaces& places : run.certificate->unknown_places) {
+    lines += places.after + ":";
+    for (const auto& [first, last] : places.lines) lines += fmt::format(" {}-{}", first + 1, last + 1);
+  }
+  const auto& findings = run.outcome.findings;
+  if (!findings.empty() && findings[0].last_line) lines += fmt::format(", W162 to {}", *findings[0].last_line + 1);
+  return lines;
+}
+
+TEST(ContactReports, OneLineWhereThePlaceIsNotKnownIsALine) {
+  const VerifiedRun run = Shop().run("M06 T101002\nG00 X9 Y0 Z9\nM06 T101001\nM02\n");
+  EXPECT_NE(in_words(*run.certificate, Language::English).find(", line 3 (it is not known"), std::string::npos);
+  EXPECT_NE(in_words(*run.certificate, Language::Italian).find(", linea 3 (non si sa"), std::string::npos);
+}
+
+TEST(ContactReports, LinesWhereThePlaceIsNotKnownAreThoseUpToTheCoordinateOfZ) {
+  // Whatever is mounted meanwhile.
+  EXPECT_EQ(unknown_lines("M06 T101002\nG00 X0 Y0 Z20\nM06 T000000\nG00 X50\nM06 T101001\nG00 X9\nZ80\nX0\nM02\n"),
+            "T101002: 3-7, W162 to 7");
+  // The tool that has moved along its axis is named, not the one that has not.
+  EXPECT_EQ(unknown_lines("M06 T101002\nG00 X0 Y0 Z20\nM06 T101003\nG00 X50\nM06 T101001\nG00 X9\nZ80\nM02\n"),
+            "T101002: 5-7, W162 to 7");
+  EXPECT_EQ(unknown_lines("M06 T101002\nG00 Z20\nM06 T101003\nG00 X5 Y0 Z50\nM06 T101001\nG00 X9\nZ80\nM02\n"),
+            "T101003: 5-7");
+  // Z0 is a motion if the length is not 0, and M06 may stand on the line of one.
+  EXPECT_EQ(unknown_lines("M06 T101002\nG00 X9 Y0 Z100\nM06 T101001\nG00 Z0\nM02\n"), "T101002: 3-4, W162 to 4");
+  EXPECT_EQ(unknown_lines("M06 T101002\nG00 X9 Y0 Z9\nM06 T101001 G00 X5\nM02\n"), "T101002: 3-3, W162 to 3");
+  // Where a tool is mounted, but not where one is put away.
+  EXPECT_EQ(unknown_lines("M06 T101002\nG00 X9 Y0 Z9\nM06 T101001\nM02\n"), "T101002: 3-3, W162 to 3");
+  EXPECT_EQ(unknown_lines("M06 T101002\nG00 X9 Y0 Z9\nM06 T000000\nM02\n"), "");
+}
+
+/// What does not hang on the spindle is compared all the time: a contact of it goes on.
+TEST(ContactReports, WhatIsNotOnTheSpindleIsComparedWhereverThatIs) {
+  Shop shop(kinematics::MachineKind::Table);
+  shop.scene.clearance = 0;
+  shop.box("clamp", {60, -20, 0}, {80, 20, 40});
+  shop.scene.machine.push_back({.name = "rail",
+                                .role = BodyRole::Machine,
+                                .shape = solids::Cuboid{.minimum = {60, -90, -80}, .maximum = {100, 90, -20}}});
+  const VerifiedRun run = shop.run("M06 T101002\nG00 Z250\nM06 T101001\nG00 X5\nG00 B-40\nX8\nZ260\nX10\nB0\nM02\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  EXPECT_EQ(run.contacts[0].line, 4u);
+  EXPECT_EQ(run.contacts[0].end_line, 8u);
 }
 
 /// A tool without a length that has not moved up or down leaves the spindle where it was.
