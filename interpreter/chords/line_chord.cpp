@@ -115,13 +115,12 @@ HeightInterval CapsuleChord::of(const Vec2& line) const {
 
 ISOCNC_VECTOR_CLONES void CapsuleChord::of_row(double x, double step, double y, int count, float* bottoms,
                                                float* tops) const {
-  constexpr double kInwards = 6.0e-8;  // Rounds to a float that is not lower.
   const CapsuleChord self = *this;
   for (int i = 0; i < count; ++i) {
     const SegmentPlace at = self.place(x - self.x_ + i * step, y - self.y_);
     const HeightInterval z = self.chord(at, square_root(at.square));
-    bottoms[i] = static_cast<float>(z.bottom + std::abs(z.bottom) * kInwards);
-    tops[i] = static_cast<float>(z.top - std::abs(z.top) * kInwards);
+    bottoms[i] = float_above(z.bottom);
+    tops[i] = float_below(z.top);
   }
 }
 

@@ -19,6 +19,10 @@ namespace isocnc::chords {
 /// The square root, or 0 of what is not positive. Without a branch.
 inline double square_root(double square) { return std::sqrt((square + std::abs(square)) / 2); }
 
+/// A float that is not below, or above, a height; off by at most a relative 2^-23. Without a branch, too.
+inline float float_above(double height) { return static_cast<float>(height + std::abs(height) * 6.0e-8); }
+inline float float_below(double height) { return -float_above(-height); }
+
 /// The value, or 0 of what is negative. Without a branch, too.
 inline float positive(float value) { return (value + std::abs(value)) / 2; }
 

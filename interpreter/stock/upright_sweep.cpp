@@ -38,8 +38,6 @@ class DistanceRow {
   }
 
  private:
-  static constexpr double kUp = 6.0e-8;  ///< Rounds to a float that is not lower.
-
   ISOCNC_VECTOR_CLONES static void fill(const std::vector<LowerSurface>& surfaces, double origin, const double* squares,
                                         int size, float* heights) {
     if (const LowerSurface& ball = surfaces.front();
@@ -48,8 +46,7 @@ class DistanceRow {
       const double square = ball.rounding * ball.rounding;
       for (int i = 0; i < size; ++i) {
         const double rest = square - squares[i];
-        const double height = middle - square_root(rest);
-        heights[i] = static_cast<float>(height + std::abs(height) * kUp);
+        heights[i] = chords::float_above(middle - square_root(rest));
       }
       return;
     }
@@ -69,10 +66,7 @@ class DistanceRow {
       }
     }
     const double* const from = lowest.data();
-    for (int i = 0; i < size; ++i) {
-      const double height = from[i] + origin;
-      heights[i] = static_cast<float>(height + std::abs(height) * kUp);
-    }
+    for (int i = 0; i < size; ++i) heights[i] = chords::float_above(from[i] + origin);
   }
 
   /// In loops that become vectors.
