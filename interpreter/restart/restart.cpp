@@ -261,10 +261,6 @@ RestartAttempt attempt(std::string_view text, const RestartOptions& options, con
   RestartAttempt made{.program = {}, .obstacle = survey.obstacle(options.line), .overtravel = {}};
   if (made.obstacle != RestartObstacle::None) return made;
   const RestartPoint& point = survey.point();
-  if (!point.is_tip_known) {
-    made.obstacle = RestartObstacle::TipUnknown;
-    return made;
-  }
   made.program = restart_preamble(point, options, line_end_of(text));
   const std::size_t preamble_lines = count_lines(made.program);
   const std::size_t begin = find_line(text, options.line).offset;

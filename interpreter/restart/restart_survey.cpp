@@ -127,7 +127,7 @@ void RestartSurvey::look_at(const running::Block& block) {
 void RestartSurvey::find_tip() {
   const auto keep = [&](const simulation::MachineCourse& course, const TipLog& log) {
     now_.machine_tip = course.tip();
-    now_.is_tip_known = course.is_tip_known();
+    is_tip_known_ = course.is_tip_known();
     now_.highest = log.highest();
     now_.highest_in_frame = log.highest_in_frame();
     now_.fed = log.fed();
@@ -150,8 +150,8 @@ void RestartSurvey::find_tip() {
   const State& state = now_.state;
   now_.is_beside_contour = course_.is_beside_contour();
   const bool has_moved = state.motion() != nullptr;
-  now_.is_off_program = has_moved && (now_.is_beside_contour || !now_.is_tip_known ||
-                                      differ(now_.machine_tip.tip, state.to_machine(state.position.tip)));
+  now_.is_off_program =
+      has_moved && (now_.is_beside_contour || differ(now_.machine_tip.tip, state.to_machine(state.position.tip)));
   now_.tip = now_.is_off_program ? tip_ : state.position.tip;  // As exact as in the program.
 }
 
@@ -177,6 +177,7 @@ std::uint16_t RestartSurvey::traits_of(const running::Block& block) const {
   if (state.is_compensated()) traits |= kCompensated;
   if (now_.is_off_program) traits |= kOffProgram;
   if (is_beside_by_unknown_) traits |= kUnknownRadius;
+  if (!is_tip_known_) traits |= kUnknownTip;
   if (changed_low_) traits |= kChangedLow;
   if (looks_down(state)) traits |= kLooksDown;
   if (!state.face_mounted && tool_points_up(state)) traits |= kPointsUp;
@@ -208,6 +209,7 @@ RestartObstacle RestartSurvey::obstacle(std::size_t line) const {
   if (has(line, kPointsUp)) return RestartObstacle::ToolPointsUp;
   if (exact_stop_follows(line)) return RestartObstacle::ExactStop;
   if (has(line, kInArc) && continues_motion(line)) return RestartObstacle::ArcContinues;
+  if (has(line, kUnknownTip)) return RestartObstacle::TipUnknown;
   return RestartObstacle::None;
 }
 

@@ -73,7 +73,6 @@ struct RestartPoint {
   geometry::Vec3 tip = geometry::Vec3::Zero();  ///< Position of the tip in the frame in force, mm.
   bool is_beside_contour = false;               ///< Compensation keeps the tool off the program.
   bool is_off_program = false;                  ///< The tip is off the program, by compensation or by a tool change.
-  bool is_tip_known = true;                     ///< Not after a tool without a length (machine.tools).
   running::Registers registers{};
   std::uint32_t known_registers = 0;  ///< Bit n: Vn was assigned by the program or set at the start.
   std::string face_line;              ///< The G24, G28 or G29 in force as written.
@@ -128,6 +127,7 @@ class RestartSurvey {
     kJumps = 1024,
     kPointsUp = 2048,
     kUnknownRadius = 4096,
+    kUnknownTip = 8192,
   };
 
   void look_at(const running::Block& block);
@@ -153,6 +153,7 @@ class RestartSurvey {
   RestartPoint point_;
   std::vector<std::uint16_t> traits_;
   std::vector<std::pair<std::size_t, std::size_t>> jumps_;  // Taken jumps, from an IF to a label.
+  bool is_tip_known_ = true;                                // Not after a tool without a length (machine.tools).
   bool is_tip_found_ = false;                               // The tip in now_ is up to date.
   geometry::Vec3 tip_ = geometry::Vec3::Zero();             // The tip in the frame in force.
   bool has_unknown_radius_ = false;                         // The radius of the mounted tool is unknown.
