@@ -45,12 +45,11 @@ static const running::MoveEvent* motion_beside(const TimedEvent* last, const exe
 static Timing::Standing standing(const Simulation& before, const running::Runner& run, const TimedMachine& machine,
                                  const running::MoveEvent* beside) {
   const execution::State& state = run.result().state;
-  const ToolLength tool = before.machine().length_of(before.tool());
   const geometry::Pose programmed = beside != nullptr ? beside->to : programmed_pose(state);
   return {.time = before.time(),
           .tip = at_rest(before.sample().tip, programmed, machine.motion),
           .programmed = programmed,
-          .tool = tool,
+          .tool = before.machine().length_of(before.tool()),
           .unknown = before.unknown_offset(),
           .frame_axes = state.face_mounted ? state.face.axes : geometry::Mat3(geometry::Mat3::Identity()),
           .spindle = before.spindle(),

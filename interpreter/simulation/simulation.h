@@ -104,7 +104,6 @@ class Simulation {
   const TimedMachine& machine() const { return *machine_; }
   /// The mounted tool: within an M06 the one before.
   const execution::ToolCode& tool() const { return tool_; }
-  double tool_length() const { return tool_length_; }  ///< Length of the mounted tool, mm.
   /// The spindle after the block in progress. An S counts only after the next M03 or M04.
   const Timing::SpindleMotion& spindle() const { return spindle_; }
   DistanceToGo to_go() const;

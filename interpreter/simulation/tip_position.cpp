@@ -73,11 +73,10 @@ void TipPosition::mount(const kinematics::Kinematics& kinematics, const ToolLeng
     if (!tool_.is_known) add_unknown(unknown_.by_tool + axis);
     unknown_.by_tool = tool.is_known ? Vec3::Zero() : Vec3(-axis);
   }
-  const kinematics::Coordinates standing = joints(kinematics);
-  const bool is_as_long = tool.mm == tool_.mm;
+  if (tool.mm != tool_.mm)
+    off_program_ = kinematics::forward(kinematics, joints(kinematics), tool.mm).head<3>() - programmed_.tip;
   tool_ = tool;
   is_unknown_off_ = !unknown_.is_zero();
-  if (!is_as_long) off_program_ = kinematics::forward(kinematics, standing, tool.mm).head<3>() - programmed_.tip;
 }
 
 }  // namespace isocnc::simulation

@@ -139,9 +139,9 @@ class LinesAbove {
     const auto after = mounted_tool(snapshot_, line + 1, run.after);
     if (!before || !after) return std::nullopt;
     const simulation::TimedMachine& machine = snapshot_.configuration().machine.timed;
-    const auto is_known = [&](const auto& tool) { return machine.length_of(tool).is_known; };
-    if (*before != *after && !(is_known(*before) && is_known(*after))) return true;
-    return machine.tool_length(*before) != machine.tool_length(*after);
+    const simulation::ToolLength one = machine.length_of(*before);
+    const simulation::ToolLength other = machine.length_of(*after);
+    return *before != *after && !(one.is_known && other.is_known && one.mm == other.mm);
   }
 
   const Snapshot& snapshot_;

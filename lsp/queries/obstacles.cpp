@@ -86,8 +86,9 @@ std::optional<NearestObstacle> nearest_obstacle(const Snapshot& snapshot, std::s
   for (const LineRun& run : runs) {
     const auto move = machine_motion(snapshot, line, run);
     const auto tool = mounted_tool(snapshot, line + 1, run.after);
-    if (!move || !tool || (*tool != execution::ToolCode() && !(move->tool_length > 0))) return std::nullopt;
+    if (!move || !tool) return std::nullopt;
     const verification::MountedTool mounted = verification::mounted_tool(*around.scene, machine, *tool);
+    if (!mounted.is_place_known) return std::nullopt;
     const bool is_without_tool = *tool != execution::ToolCode() && !(mounted.bodies && mounted.bodies->cutter);
     const verification::BodyPairs bodies =
         verification::pairs_of(*around.scene, machine.motion.kinematics, mounted, *around.origin);
