@@ -19,10 +19,11 @@ namespace {
 constexpr double kParallelSine = 1e-9;
 constexpr float kTiny = 1e-20F;
 constexpr float kHuge = 1e20F;
-constexpr double kFloatError = 1e-5;  ///< Far more than rounding to floats moves a point, as a part of the size.
-constexpr double kConverged = 1e-7;   // mm
-constexpr double kDeep = 2;           ///< A body so far in material, mm, is found by few of its dexels.
-constexpr double kNoSkin = 1e-4;      ///< Pieces of a body that are so near, mm, have nothing between them.
+constexpr double kFloatError = 1e-5;   ///< Far more than rounding to floats moves a point, as a part of the size.
+constexpr double kHeightError = 6e-8;  ///< Of a height as a float, as a part of it.
+constexpr double kConverged = 1e-7;    // mm
+constexpr double kDeep = 2;            ///< A body so far in material, mm, is found by few of its dexels.
+constexpr double kNoSkin = 1e-4;       ///< Pieces of a body that are so near, mm, have nothing between them.
 
 /// Without the upper part of its core that is above `ceiling` all along the travel.
 solids::BodyPiece below(double ceiling, const solids::BodyPiece& piece, const solids::AxisPlacement& at,
@@ -57,6 +58,7 @@ SweptPiece::SweptPiece(const solids::BodyPiece& piece, const solids::AxisPlaceme
                        double ceiling)
     : piece_(below(ceiling, piece, at, travel)),
       from_(at),
+      base_(at.at(piece_.core.bottom)),
       travel_(travel),
       moves_(travel.squaredNorm() > 0),
       core_(piece_.core, at),
@@ -81,15 +83,31 @@ SweptPiece::SweptPiece(const solids::BodyPiece& piece, const solids::AxisPlaceme
 }
 
 void SweptPiece::find_shadow() {
+  static const std::array<Vec2, kShadowSides> kNormals = [] {
+    std::array<Vec2, kShadowSides> normals;
+    for (std::size_t i = 0; i < kShadowSides; ++i) {
+      const double angle = (static_cast<double>(i) - (kShadowSides - 1) / 2.0) * std::numbers::pi / kShadowSides;
+      normals[i] = {std::cos(angle), std::sin(angle)};
+    }
+    return normals;
+  }();
+  const Frustum& core = piece_.core;
+  const Vec2 base = base_.head<2>();
+  const Vec2 top = base + (core.top - core.bottom) * from_.axis.head<2>();
   for (std::size_t i = 0; i < kShadowSides; ++i) {
-    const double angle = (static_cast<double>(i) - (kShadowSides - 1) / 2.0) * std::numbers::pi / kShadowSides;
-    const Vec3 normal(std::cos(angle), std::sin(angle), 0);
-    const auto reach = [&](const Vec3& n) {
-      return core_.highest(n) + piece_.rounding + std::max(0.0, travel_.dot(n));
-    };
+    const Vec2& normal = kNormals[i];
+    const double aside = normal.x() * from_.axis.y() - normal.y() * from_.axis.x();
+    const double across = std::sqrt(aside * aside + from_.axis.z() * from_.axis.z());
+    const double travel = normal.dot(travel_.head<2>());
+    const double low = normal.dot(base);
+    const double high = normal.dot(top);
+    const double low_reach = core.bottom_radius * across;
+    const double high_reach = core.top_radius * across;
+    const double most = std::max(low + low_reach, high + high_reach) + piece_.rounding + std::max(0.0, travel);
+    const double least = std::min(low - low_reach, high - high_reach) - piece_.rounding + std::min(0.0, travel);
     const double slope = -normal.y() / normal.x();
-    right_[i] = {reach(normal) / normal.x(), slope};
-    left_[i] = {-reach(-normal) / normal.x(), slope};
+    right_[i] = {most / normal.x(), slope};
+    left_[i] = {least / normal.x(), slope};
   }
 }
 
@@ -103,15 +121,14 @@ HeightInterval SweptPiece::shadow(double y) const {
 /// For each line, any vector n with n.z <= 0 serves for which no point of the sweep is as far along n as the line at
 /// its height: what is below is even farther along n. The one from the nearest point of the core, moved by a share of
 /// the travel, does where any does, or nearly so. Upwards the same with n.z >= 0. In a loop that becomes vectors.
-ISOCNC_VECTOR_CLONES void SweptPiece::clear(double x, double step, double y, const float* tops,
-                                            float* clearances) const {
+ISOCNC_VECTOR_CLONES void SweptPiece::clear_core(double x, double step, double y, int count, const float* tops,
+                                                 float* clearances) const {
   const FloatForm form = floats_;
-  const Vec3 base = from_.at(piece_.core.bottom);
-  const auto first = static_cast<float>(x - base.x());
+  const auto first = static_cast<float>(x - base_.x());
   const auto spacing = static_cast<float>(step);
-  const auto dy = static_cast<float>(y - base.y());
-  const auto base_z = static_cast<float>(base.z());
-  for (int i = 0; i < kTogether; ++i) {
+  const auto dy = static_cast<float>(y - base_.y());
+  const auto base_z = static_cast<float>(base_.z());
+  for (int i = 0; i < count; ++i) {
     const float dx = first + static_cast<float>(i) * spacing;
     const float dz = tops[i] - base_z;
     const float ahead = dx * form.across[0] + dy * form.across[1] + dz * form.across[2];
@@ -140,11 +157,71 @@ ISOCNC_VECTOR_CLONES void SweptPiece::clear(double x, double step, double y, con
   }
 }
 
+/// The same for a ball, of which the nearest point of the core is known: n leads from it to the line.
+ISOCNC_VECTOR_CLONES void SweptPiece::clear_ball(double x, double step, double y, int count, const float* tops,
+                                                 float* clearances) const {
+  const FloatForm form = floats_;
+  const auto first = static_cast<float>(x - base_.x());
+  const auto spacing = static_cast<float>(step);
+  const auto dy = static_cast<float>(y - base_.y());
+  const auto base_z = static_cast<float>(base_.z());
+  for (int i = 0; i < count; ++i) {
+    const float dx = first + static_cast<float>(i) * spacing;
+    const float dz = tops[i] - base_z;
+    const float ahead = dx * form.across[0] + dy * form.across[1] + dz * form.across[2];
+    const float share = 1 - positive(1 - positive(ahead));
+    const float nx = dx - share * form.travel[0];
+    const float ny = dy - share * form.travel[1];
+    const float nz = dz - share * form.travel[2];
+    const float n_travel = nx * form.travel[0] + ny * form.travel[1] + nz * form.travel[2];
+    const float square = nx * nx + ny * ny + nz * nz;
+    const float beyond = square + share * n_travel - positive(n_travel) - form.rounding * std::sqrt(square);
+    clearances[i] = beyond - kHuge * positive(nz);
+  }
+}
+
+/// The same for a cylinder that does not point down: what is below its lower end, or beside it and not above its axis.
+ISOCNC_VECTOR_CLONES void SweptPiece::clear_cylinder(double x, double step, double y, int count, const float* tops,
+                                                     float* clearances) const {
+  const FloatForm form = floats_;
+  const auto first = static_cast<float>(x - base_.x());
+  const auto spacing = static_cast<float>(step);
+  const auto dy = static_cast<float>(y - base_.y());
+  const auto base_z = static_cast<float>(base_.z());
+  const float drop = positive(-form.rise) + form.rounding;
+  for (int i = 0; i < count; ++i) {
+    const float dx = first + static_cast<float>(i) * spacing;
+    const float dz = tops[i] - base_z;
+    const float along = dx * form.axis[0] + dy * form.axis[1] + dz * form.axis[2];
+    const float ahead = dx * form.across[0] + dy * form.across[1] + dz * form.across[2];
+    const float share = 1 - positive(1 - positive(ahead));
+    const float height = along - share * form.rise;
+    const float nx = dx - share * form.travel[0] - height * form.axis[0];
+    const float ny = dy - share * form.travel[1] - height * form.axis[1];
+    const float nz = dz - share * form.travel[2] - height * form.axis[2];
+    const float n_travel = nx * form.travel[0] + ny * form.travel[1] + nz * form.travel[2];
+    const float square = nx * nx + ny * ny + nz * nz;
+    const float beside = square + share * n_travel - positive(n_travel) -
+                         (form.low_radius + form.rounding) * std::sqrt(square) - kHuge * positive(nz);
+    const float below = -along - drop;
+    clearances[i] = below + positive(beside - below);
+  }
+}
+
+void SweptPiece::clear(double x, double step, double y, int count, const float* tops, float* clearances) const {
+  if (ball_)
+    clear_ball(x, step, y, count, tops, clearances);
+  else if (is_cylinder_)
+    clear_cylinder(x, step, y, count, tops, clearances);
+  else
+    clear_core(x, step, y, count, tops, clearances);
+}
+
 void SweptPiece::find_floats() {
   const Frustum& core = piece_.core;
   FloatForm& form = floats_;
   form.rise = static_cast<float>(travel_.dot(from_.axis));
-  Vec3 across = travel_ - travel_.dot(from_.axis) * from_.axis;
+  Vec3 across = ball_ ? travel_ : travel_ - travel_.dot(from_.axis) * from_.axis;
   const double square = across.squaredNorm();
   across = square > 0 ? Vec3(across / square) : Vec3(Vec3::Zero());
   for (int i = 0; i < 3; ++i) {
@@ -157,8 +234,9 @@ void SweptPiece::find_floats() {
   form.low_radius = static_cast<float>(core.bottom_radius);
   form.high_radius = static_cast<float>(core.top_radius);
   form.growth = height > 0 ? static_cast<float>((core.top_radius - core.bottom_radius) / height) : 0.0F;
+  is_cylinder_ = piece_.rounding == 0 && core.bottom_radius == core.top_radius && from_.axis.z() >= 0;
   const double size = height + std::max(core.bottom_radius, core.top_radius) + piece_.rounding + travel_.norm();
-  form.rounding = static_cast<float>(piece_.rounding + kFloatError * size);
+  form.rounding = static_cast<float>(piece_.rounding + kFloatError * size + kHeightError * std::abs(base_.z()));
 }
 
 /// The straight lines on the side of the core along which the travel touches it: with the outward normal
@@ -305,6 +383,7 @@ HeightInterval SweptPiece::rounded_chord(const Vec2& line) const {
 bool SweptPiece::contains(const Vec3& point) const { return out_of_core(point).norm() <= piece_.rounding + kConverged; }
 
 static constexpr float kNothing = -std::numeric_limits<float>::infinity();
+static constexpr float kAboveAll = -kNothing;
 
 /// The greatest way from material of a vertical line, along the axis towards the tip, out of the sweep, mm, at most
 /// `most`; 0 if it is not above `least`. Where the material ends at a pass before this one that was parallel to it, no
@@ -400,18 +479,74 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
     }
     return present;
   };
-  using Floats = std::array<float, kTogether>;
-  // Lowers `clearances` to those of all pieces that have a part in these dexels.
-  const auto clear = [&](int row, int group, int size, const Floats& tops, Floats& clearances) {
-    Floats each;
+  // Of a row, from the first of its dexels on that the sweep may meet, in whole groups.
+  using RowFloats = std::array<float, static_cast<std::size_t>(Tile::kSize) + kTogether>;
+  RowFloats tops;
+  RowFloats clearances;
+  const auto whole_groups = [](int size) { return (size + kTogether - 1) / kTogether * kTogether; };
+  // Sets `tops`, and the least of the clearances of all pieces that have a part in these dexels.
+  const auto look_at_row = [&](int row, int first, int last) {
+    const int size = last - first;
+    const int whole = whole_groups(size);
+    sink.highest(row, first, size, tops.data());
+    std::fill(tops.begin() + size, tops.begin() + whole, kNothing);
+    const auto clear = [&](const Window& window, int begin, int end, float* result) {
+      window.piece->clear(grid.x(first + begin), grid.spacing.x(), grid.y(row), end - begin, tops.data() + begin,
+                          result);
+    };
+    if (windows.size() == 1) return clear(windows.front(), 0, whole, clearances.data());
+    std::fill_n(clearances.begin(), whole, 1.0F);
+    RowFloats each;
     for (const Window& window : windows) {
-      if (!window.is_in_row || window.first >= group + size || group >= window.last) continue;
-      window.piece->clear(grid.x(group), grid.spacing.x(), grid.y(row), tops.data(), each.data());
-      for (std::size_t i = 0; i < kTogether; ++i) clearances[i] = std::min(clearances[i], each[i]);
+      if (!window.is_in_row) continue;
+      const int begin = (window.first - first) / kTogether * kTogether;
+      const int end = std::min(whole, whole_groups(window.last - first));
+      clear(window, begin, end, each.data());
+      float* const least = clearances.data() + begin;
+      for (int i = 0; i < end - begin; ++i)
+        least[i] = each[static_cast<std::size_t>(i)] < least[i] ? each[static_cast<std::size_t>(i)] : least[i];
     }
+  };
+  // Whether the sweep may meet material in a group. In a loop that becomes vectors.
+  const auto is_open = [&](std::size_t at) {
+    unsigned open = 0;
+    for (std::size_t i = at; i < at + kTogether; ++i)
+      open |= static_cast<unsigned>(!(clearances[i] > 0)) & static_cast<unsigned>(tops[i] > kNothing);
+    return open != 0;
   };
   // Many dexels of a ball are cut by each of its short ways: their chords are computed together.
   const chords::CapsuleChord* const ball = windows.size() == 1 && sink.cuts() ? windows.front().piece->ball() : nullptr;
+  // Takes a group of dexels, those from the `at`-th one of the row on.
+  const auto take_ball = [&](int row, int first, std::size_t at, int size) {
+    std::array<float, kTogether> bottoms, ends;
+    const int group = first + static_cast<int>(at);
+    ball->of_row(grid.x(group), grid.spacing.x(), grid.y(row), kTogether, bottoms.data(), ends.data());
+    const double least = least_depth();
+    const auto is_deep = [&](float depth) { return static_cast<double>(depth) * rise > least; };
+    const auto depth_at = [&](std::size_t i) { return std::min(ends[i], tops[at + i]) - bottoms[i]; };
+    float deepest = 0;
+    for (std::size_t i = 0; i < kTogether; ++i) {
+      if (clearances[at + i] > 0) bottoms[i] = kAboveAll;
+      deepest = std::max(deepest, depth_at(i));
+    }
+    sink.set_share(1);
+    if (!is_deep(deepest)) {
+      std::copy_n(bottoms.begin(), kTogether, sink.bottoms());
+      std::copy_n(ends.begin(), kTogether, sink.tops());
+      return sink.take_row(row, group, group + size);
+    }
+    for (int i = 0; i < size; ++i) {
+      const auto lane = static_cast<std::size_t>(i);
+      if (is_deep(depth_at(lane))) {
+        sink.set(0, take(row, group + i, static_cast<double>(tops[at + lane])));
+      } else {
+        sink.set_share(1);
+        sink.bottoms()[0] = bottoms[lane];
+        sink.tops()[0] = ends[lane];
+      }
+      sink.take_row(row, group + i, group + i + 1);
+    }
+  };
   // Rows from the `from`-th one on, each `step`-th one; in a group of dexels, `most` of them.
   const auto take_rows = [&](int from, int step, int most) {
     for (int row = from; row < all.last_row; row += step) {
@@ -428,39 +563,23 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
         first = std::min(first, window.first);
         last = std::max(last, window.last);
       }
+      if (first >= last) continue;
+      look_at_row(row, first, last);
       for (int group = first; group < last; group += kTogether) {
         const int size = std::min(kTogether, last - group);
-        Floats tops;
-        tops.fill(kNothing);
-        sink.highest(row, group, size, tops.data());
-        Floats clearances;
-        clearances.fill(1);
-        clear(row, group, size, tops, clearances);
-        // The dexels in which the sweep may meet material.
-        std::array<int, kTogether> open;
-        int count = 0;
-        for (int i = 0; i < size; ++i) {
-          const auto lane = static_cast<std::size_t>(i);
-          open[static_cast<std::size_t>(count)] = i;
-          const bool is_open = !(clearances[lane] > 0) && tops[lane] > kNothing;
-          count += is_open ? 1 : 0;
+        const auto at = static_cast<std::size_t>(group - first);
+        if (!is_open(at)) continue;
+        if (ball) {
+          take_ball(row, first, at, size);
+          continue;
         }
-        count = std::min(count, most);
-        if (count == 0) continue;
-        Floats bottoms, ends;
-        if (ball) ball->of_row(grid.x(group), grid.spacing.x(), grid.y(row), kTogether, bottoms.data(), ends.data());
-        const double least = ball ? least_depth() : 0;
-        for (int i = 0; i < count; ++i) {
-          const int lane = open[static_cast<std::size_t>(i)];
-          const auto at = static_cast<std::size_t>(lane);
-          if (ball && !((std::min(ends[at], tops[at]) - bottoms[at]) * rise > least)) {
-            sink.set_share(1);
-            sink.bottoms()[0] = bottoms[at];
-            sink.tops()[0] = ends[at];
-          } else {
-            sink.set(0, take(row, group + lane, static_cast<double>(tops[at])));
-          }
-          sink.take_row(row, group + lane, group + lane + 1);
+        int taken = 0;
+        for (int i = 0; i < size && taken < most; ++i) {
+          const std::size_t lane = at + static_cast<std::size_t>(i);
+          if (clearances[lane] > 0 || !(tops[lane] > kNothing)) continue;
+          ++taken;
+          sink.set(0, take(row, group + i, static_cast<double>(tops[lane])));
+          sink.take_row(row, group + i, group + i + 1);
         }
       }
     }

@@ -29,10 +29,10 @@ class SweptPiece {
 
   /// From where to where along x the lines at a y may meet the sweep: a polygon around its shadow.
   HeightInterval shadow(double y) const;
-  /// Of the lines at x, x + step, and so on, all at y, sets a number above 0 for those that surely meet nothing at
-  /// their tops and below: there is a plane that leaves the sweep on its one side, and that part of the line on the
+  /// Of the `count` lines at x, x + step, and so on, all at y, sets a number above 0 for those that surely meet nothing
+  /// at their tops and below: there is a plane that leaves the sweep on its one side, and that part of the line on the
   /// other one.
-  void clear(double x, double step, double y, const float* tops, float* clearances) const;
+  void clear(double x, double step, double y, int count, const float* tops, float* clearances) const;
   /// The chords of a ball, as CapsuleChord::of_row(). Null for another piece.
   const chords::CapsuleChord* ball() const { return ball_ ? &*ball_ : nullptr; }
 
@@ -53,6 +53,9 @@ class SweptPiece {
   HeightInterval rounded_chord(const geometry::Vec2& line) const;
   void include_disc(const SweptDisc& disc, const geometry::Vec2& line, HeightInterval& result) const;
   void include_edge(const SweptEdge& edge, const geometry::Vec2& line, HeightInterval& result) const;
+  void clear_core(double x, double step, double y, int count, const float* tops, float* clearances) const;
+  void clear_cylinder(double x, double step, double y, int count, const float* tops, float* clearances) const;
+  void clear_ball(double x, double step, double y, int count, const float* tops, float* clearances) const;
   void find_edges();
   void find_shadow();
   void find_floats();
@@ -61,6 +64,7 @@ class SweptPiece {
 
   solids::BodyPiece piece_;
   solids::AxisPlacement from_;
+  geometry::Vec3 base_;  ///< Of the core, at the start.
   geometry::Vec3 travel_;
   bool moves_ = false;
   solids::PlacedFrustum core_;
@@ -80,7 +84,7 @@ class SweptPiece {
   struct FloatForm {
     std::array<float, 3> axis;
     std::array<float, 3> travel;
-    std::array<float, 3> across;  ///< The travel across the axis, by the square of its length.
+    std::array<float, 3> across;  ///< The travel across the axis, of a ball all of it, by the square of its length.
     float rise;                   ///< The travel along the axis.
     float height;
     float low_radius;
@@ -89,6 +93,7 @@ class SweptPiece {
     float rounding;  ///< With a margin.
   };
   FloatForm floats_;
+  bool is_cylinder_ = false;  ///< That clear_cylinder() is for.
   std::array<SweptEdge, 2> edges_;
   int edge_count_ = 0;
   std::array<SweptDisc, 2> discs_;

@@ -175,8 +175,7 @@ bool Tile::has_lower(int row, int column) const {
 }
 
 /// One interval in the dexel; the frequent cases first.
-void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, CutCount& count) {
-  if (has_lower(row, column)) return cut_dexel_of_many(row, column, bottom, top, tag, count);
+void Tile::cut_single(int row, int column, float bottom, float top, CutTag tag, CutCount& count) {
   const std::size_t at = index(row, column);
   const float old_top = tops_[at];
   const float old_bottom = bottom_at(at);
@@ -194,6 +193,11 @@ void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, C
     set_bottom(at, top);
     if (bottom > old_bottom) insert_lower(row, {column, old_bottom, bottom});
   }
+}
+
+void Tile::cut_dexel(int row, int column, float bottom, float top, CutTag tag, CutCount& count) {
+  if (has_lower(row, column)) return cut_dexel_of_many(row, column, bottom, top, tag, count);
+  cut_single(row, column, bottom, top, tag, count);
 }
 
 /// Several intervals in the dexel.
@@ -291,8 +295,13 @@ void Tile::cut_run(int row, int first, int last, float bottom, float top, CutTag
 
 void Tile::cut_row(int row, int first, int last, const float* bottoms, const float* tops, CutTag tag, CutCount& count) {
   const int size = last - first;
+  if (has_lower(row)) {
+    for (int i = 0; i < size; ++i)
+      if (bottoms[i] < tops[i]) cut_dexel(row, first + i, bottoms[i], tops[i], tag, count);
+    return;
+  }
   for (int i = 0; i < size; ++i)
-    if (bottoms[i] < tops[i]) cut_dexel(row, first + i, bottoms[i], tops[i], tag, count);
+    if (bottoms[i] < tops[i]) cut_single(row, first + i, bottoms[i], tops[i], tag, count);
 }
 
 void Tile::cut_row(int row, int first, int last, const float* bottoms, float top, CutTag tag, CutCount& count) {

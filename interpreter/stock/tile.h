@@ -151,6 +151,7 @@ class Tile {
   float bottom_at(std::size_t index) const { return bottoms_.empty() ? bottom_ : bottoms_[index]; }
   bool has_lower(int row) const { return !lower_.empty() && !lower_[static_cast<std::size_t>(row)].empty(); }
   bool has_lower(int row, int column) const;
+  void cut_single(int row, int column, float bottom, float top, CutTag tag, CutCount& count);
   void cut_dexel(int row, int column, float bottom, float top, CutTag tag, CutCount& count);
   void cut_dexel_of_many(int row, int column, float bottom, float top, CutTag tag, CutCount& count);
   void set_bottom(std::size_t index, float bottom);

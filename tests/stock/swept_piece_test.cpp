@@ -76,9 +76,9 @@ TEST(SweptPiece, MeetsNothingBelowATopThatIsClear) {
     const double step = random.between(0.05, 1);
     const double first = random.between(box.min().x() - 2, box.max().x());
     const double y = random.between(box.min().y() - 1, box.max().y() + 1);
-    std::array<float, kTogether> tops;
-    std::array<float, kTogether> clearances;
-    std::array<HeightInterval, kTogether> chords;
+    std::array<float, 3 * kTogether> tops;
+    std::array<float, 3 * kTogether> clearances;
+    std::array<HeightInterval, 3 * kTogether> chords;
     for (std::size_t k = 0; k < tops.size(); ++k) {
       chords[k] = piece.chord(Vec2(first + static_cast<double>(k) * step, y));
       // Near the lower side, where what is clear ends, or anywhere.
@@ -86,7 +86,7 @@ TEST(SweptPiece, MeetsNothingBelowATopThatIsClear) {
       tops[k] = static_cast<float>(is_near ? chords[k].bottom + std::pow(10, random.between(-6, 1)) - 0.01
                                            : random.between(box.min().z() - 5, box.max().z() + 5));
     }
-    piece.clear(first, step, y, tops.data(), clearances.data());
+    piece.clear(first, step, y, static_cast<int>(tops.size()), tops.data(), clearances.data());
     for (std::size_t k = 0; k < tops.size(); ++k) {
       const bool is_below = !chords[k].is_empty() && tops[k] < chords[k].bottom - 0.005;
       free += is_below ? 1 : 0;
