@@ -33,9 +33,7 @@ namespace {
 class TipCourse {
  public:
   TipCourse(const Kinematics& kinematics, const Path& path, double from, double to)
-      : kinematics_(kinematics), path_(path), from_(from), to_(to) {
-    turns_ = turns_axis(kinematics, path);
-  }
+      : kinematics_(kinematics), path_(path), from_(from), to_(to), turns_(turns_axis(kinematics, path)) {}
 
   bool turns() const { return turns_; }
 
@@ -78,50 +76,55 @@ class TipCourse {
   /// by at most an eighth of the second derivative times the square of its length.
   double parts(double reach, double tolerance) const {
     const double length = to_ - from_;
-    const double bend = tip_bend() + reach * (2 * turn_speed() * turn_speed() + turn_acceleration());
-    const double parts = std::max(length * std::sqrt(bend / (8 * tolerance)), length * turn_speed() / kMaxTurn);
+    const CourseBounds bounds = this->bounds();
+    const double bend =
+        bounds.tip_bend + reach * (2 * bounds.turn_speed * bounds.turn_speed + bounds.turn_acceleration);
+    const double parts = std::max(length * std::sqrt(bend / (8 * tolerance)), length * bounds.turn_speed / kMaxTurn);
     return std::clamp(std::ceil(parts), 1.0, kMaxPieces);
   }
 
  private:
-  /// Radians by s.
-  double turn_speed() const {
-    return turns_
-               ? greatest([&](double s) { return rotary(path_.at(s).first); }) + turn_acceleration() * (to_ - from_) / 2
-               : 0;
-  }
-  double turn_acceleration() const {
-    return turns_ ? greatest([&](double s) { return rotary(path_.at(s).second); }) : 0;
+  /// How fast the tip bends, mm, and the axis turns, radians; by s.
+  struct CourseBounds {
+    double tip_bend = 0;
+    double turn_speed = 0;
+    double turn_acceleration = 0;
+  };
+
+  /// From both ends and the middle: second derivatives of a polynomial change linearly, so they are greatest at an end,
+  /// and those of a circle are the same everywhere.
+  CourseBounds bounds() const {
+    CourseBounds all;
+    double speed = 0;
+    for (const double s : {from_, (from_ + to_) / 2, to_}) {
+      const kinematics::Jet at = path_.at(s);
+      all.tip_bend = std::max(all.tip_bend, at.second.head<3>().norm());
+      speed = std::max(speed, at.first.head<3>().norm());
+      if (!turns_) continue;
+      all.turn_speed = std::max(all.turn_speed, rotary(at.first));
+      all.turn_acceleration = std::max(all.turn_acceleration, rotary(at.second));
+    }
+    const double half = (to_ - from_) / 2;
+    all.turn_speed += all.turn_acceleration * half;
+    if (!path_.is_of_joints || !turns_) return all;
+    speed += all.tip_bend * half;
+    // What turns is as long as from the tip to the rotary axes: those of the head, or those of the table.
+    const Vec3 tip = at((from_ + to_) / 2).origin;
+    const double arm = kinematics::lever(kinematics_, tip, path_.tool_length);
+    const double table = kinematics_.kind == MachineKind::Table ? speed * half : 0;
+    all.tip_bend = all.tip_bend + 2 * all.turn_speed * speed +
+                   (arm + table) * (all.turn_speed * all.turn_speed + all.turn_acceleration);
+    return all;
   }
   static double rotary(const kinematics::Coordinates& c) {
     return (std::abs(c[kinematics::kB]) + std::abs(c[kinematics::kC])) * kinematics::kRadians;
-  }
-
-  /// A bound of the second derivative of the tip.
-  double tip_bend() const {
-    const double own = greatest([&](double s) { return path_.at(s).second.head<3>().norm(); });
-    if (!path_.is_of_joints || !turns_) return own;
-    // What turns is as long as from the tip to the rotary axes: those of the head, or those of the table.
-    const Vec3 tip = at((from_ + to_) / 2).origin;
-    const double half = (to_ - from_) / 2;
-    const double speed = greatest([&](double s) { return path_.at(s).first.head<3>().norm(); }) + own * half;
-    const double arm = kinematics::lever(kinematics_, tip, path_.tool_length);
-    const double table = kinematics_.kind == MachineKind::Table ? speed * half : 0;
-    return own + 2 * turn_speed() * speed + (arm + table) * (turn_speed() * turn_speed() + turn_acceleration());
-  }
-
-  /// The greatest value at both ends and in the middle: second derivatives of a polynomial change linearly, so they are
-  /// greatest at an end, and those of a circle are the same everywhere.
-  template <class Value>
-  double greatest(Value&& value) const {
-    return std::max({value(from_), value((from_ + to_) / 2), value(to_)});
   }
 
   const Kinematics& kinematics_;
   const Path& path_;
   double from_;
   double to_;
-  bool turns_ = false;
+  bool turns_;
 };
 
 }  // namespace
