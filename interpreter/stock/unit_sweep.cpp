@@ -229,11 +229,12 @@ void UnitSweeps::append_turn(const TurningPath& path, std::size_t piece_index) {
   // The path of a point on the axis deviates from its chord by the angle's square times its height, over 8.
   const auto arc_parts = [&](double z) { return turn.angle() * std::sqrt(std::abs(z) / (2 * tolerance_)); };
   const auto append_straight = [&](double z, int parts, std::size_t index) {
+    Vec3 first = path.from.at(z);
     for (int part = 0; part < parts; ++part) {
-      const AxisPlacement first = at(static_cast<double>(part) / parts);
-      const AxisPlacement last = at(static_cast<double>(part + 1) / parts);
+      const Vec3 last = at(static_cast<double>(part + 1) / parts).at(z);
       const Vec3 axis = turn.at((part + 0.5) / parts);
-      append_slanted({first.at(z) - z * axis, axis}, last.at(z) - first.at(z), index, 1);
+      append_slanted({first - z * axis, axis}, last - first, index, 1);
+      first = last;
     }
   };
   const auto straight_parts_of = [&](const Frustum& part) {
