@@ -19,6 +19,17 @@ const wasm = await Module();
 wasm.setup();
 const { Manifold } = wasm;
 
+// Solids and sections live in the memory of the module, which knows no garbage: they go when a program is done.
+const made = [];
+const own = (object) => {
+  made.push(object);
+  return object;
+};
+const forget = () => {
+  for (const object of made) object.delete();
+  made.length = 0;
+};
+
 const sides = 48;
 const quarterSides = 8;
 
@@ -50,7 +61,7 @@ function sweep(move, isAround) {
       for (const end of [move.from, move.to])
         points.push([0, 1, 2].map((k) => end[k] + height * move.axis[k] + cosine * across[k] + sine * aside[k]));
     }
-  return Manifold.hull(points);
+  return own(Manifold.hull(points));
 }
 
 // Whether a solid holds a horizontal disc, at one of some heights, that is more than a film.
@@ -60,8 +71,8 @@ function holdsDisc(solid, radius) {
   const levels = 12;
   for (let i = 0; i < levels; ++i) {
     const z = min[2] + ((i + 0.5) / levels) * (max[2] - min[2]);
-    const section = solid.slice(z).intersect(solid.slice(z + film));
-    if (!section.offset(-radius, "Round").isEmpty()) return true;
+    const section = own(own(solid.slice(z)).intersect(own(solid.slice(z + film))));
+    if (!own(section.offset(-radius, "Round")).isEmpty()) return true;
   }
   return false;
 }
@@ -81,12 +92,12 @@ const totals = { programs: 0, moves: 0, asked: 0, met: 0, largest: 0 };
 function compare(line) {
   const { seed, spacing, blank, moves, volume } = JSON.parse(line);
   const fail = (what) => failures.push(`seed ${seed}: ${what}`);
-  const box = Manifold.cube([0, 1, 2].map((i) => blank[1][i] - blank[0][i])).translate(blank[0]);
+  const box = own(own(Manifold.cube([0, 1, 2].map((i) => blank[1][i] - blank[0][i]))).translate(blank[0]));
   const left = { within: box, around: box };
   let waiting = { within: [], around: [] };
   const cutWaiting = () => {
     for (const side of ["within", "around"]) {
-      if (waiting[side].length > 0) left[side] = left[side].subtract(Manifold.union(waiting[side]));
+      if (waiting[side].length > 0) left[side] = own(left[side].subtract(own(Manifold.union(waiting[side]))));
       waiting[side] = [];
     }
   };
@@ -100,8 +111,8 @@ function compare(line) {
     ++totals.asked;
     if (move.volume > 0) {
       ++totals.met;
-      if (!(left.within.intersect(sweep(move, true)).volume() > 0)) fail(`move ${index} meets nothing, and is reported`);
-    } else if (holdsDisc(left.around.intersect(sweep(move, false)), (Math.SQRT2 / 2) * spacing + 0.005)) {
+      if (!(own(left.within.intersect(sweep(move, true))).volume() > 0)) fail(`move ${index} meets nothing, and is reported`);
+    } else if (holdsDisc(own(left.around.intersect(sweep(move, false))), (Math.SQRT2 / 2) * spacing + 0.005)) {
       fail(`move ${index} meets material, and is not reported`);
     }
   });
@@ -118,6 +129,7 @@ function compare(line) {
   if (off > 1) fail(`${volume.toFixed(1)} mm3 are left instead of ${expected.toFixed(1)} +- ${allowed.toFixed(1)}`);
   ++totals.programs;
   totals.moves += moves.length;
+  forget();
 }
 
 const batch = 20;
