@@ -20,6 +20,7 @@ from compare import CannotMeasure, run
 FLAT_10 = {"radius": 10, "shape": "flat", "cutLength": 50}
 BALL_4 = {"radius": 4, "shape": "ball", "cutLength": 40}
 PANEL = [1000, 1000]
+GAIN = 1.7  # Of two processors over one, at least.
 CUPS = [
     {"name": f"cup {6 * row + column + 1}", "box": [[x, y, -78], [x + 120, y + 120, -18]]}
     for row, y in enumerate((40, 300, 560, 820))
@@ -43,7 +44,7 @@ class Case:
 CASES = [
     Case("flat, radius 10, 1 mm", "walk", FLAT_10, PANEL, 0.5, 1_000_000, seconds=5),
     Case("ball, radius 4, 1 mm", "walk", BALL_4, PANEL, 0.5, 1_000_000, seconds=6),
-    Case("five axes, ball, radius 4, 1 mm, 24 cups, holder, nose", "walk-five-axes", BALL_4, PANEL, 0.5, 1_000_000, seconds=20, surrounded=True),
+    Case("five axes, ball, radius 4, 1 mm, 24 cups, holder, nose", "walk-five-axes", BALL_4, PANEL, 0.5, 1_000_000, seconds=15, surrounded=True),
     Case("flat, radius 10, 1 mm, 250 x 250 mm at 0.1 mm", "walk-narrow", FLAT_10, [250, 250], 0.1, 100_000, seconds=8),
     Case("table of 3 x 1.5 m, all of it cut", "table", FLAT_10, [3000, 1500], 0.5, 20_000, mib=250),
 ]
@@ -83,8 +84,8 @@ def on_one_processor(command):
 
 
 def measure(build, runs, share, names):
-    print("| program | moves | processor time | one processor | all processors | target | memory | target | met |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("| program | moves | processor time | one processor | all processors | target | gain | memory | target | met |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     are_met = True
     with tempfile.TemporaryDirectory() as folder:
         for case in CASES:
@@ -98,15 +99,17 @@ def measure(build, runs, share, names):
                 alone.append(run(on_one_processor(command)))
                 together.append(run(command))
             wall = statistics.median(each.wall for each in together)
+            gain = statistics.median(one.wall / all_of_them.wall for one, all_of_them in zip(alone, together))
             mib = max(each.resident for each in alone + together)
             # What a run costs beside its moves would make a part of a program miss a part of the time.
             limit = case.seconds if share == 1 else None
             is_met = (limit is None or wall <= limit) and (case.mib is None or mib <= case.mib)
+            is_met = is_met and (limit is None or len(os.sched_getaffinity(0)) < 2 or gain >= GAIN)
             are_met &= is_met
             print(
                 f"| {case.name} | {lines:,} | {statistics.median(each.cpu for each in alone):.2f} s "
                 f"| {statistics.median(each.wall for each in alone):.2f} s | {wall:.2f} s "
-                f"| {f'at most {limit:g} s' if limit else ''} | {mib:.0f} MiB "
+                f"| {f'at most {limit:g} s' if limit else ''} | {gain:.2f} | {mib:.0f} MiB "
                 f"| {f'at most {case.mib:g} MiB' if case.mib else ''} | {'yes' if is_met else '**no**'} |",
                 flush=True,
             )
