@@ -84,15 +84,23 @@ TEST_P(ScarceMemory, IsReportedOrIsEnough) {
   folder.write("bad.iso", mistakes(60'000));
   folder.write("editor", editor_s_messages(short_moves(100'000)));
   folder.write("debugger", debugger_s_messages(folder.path("good.iso")));
+  const auto limited = [&](int kib, const std::string& command) {
+    return shell("cd " + folder.path() + " && ulimit -v " + std::to_string(kib) + " && LC_ALL=C " ISOCNC_BIN_DIR "/" +
+                 command + " > out 2> err");
+  };
+  constexpr int kMost = 70'000;
+  // What the loader and the libraries take before main() is between these.
+  int too_little = 0;
+  int enough = kMost;
+  while (enough - too_little > 64) {
+    const int kib = (too_little + enough) / 2;
+    (limited(kib, GetParam().substr(0, GetParam().find(' ')) + " --version") > 2 ? too_little : enough) = kib;
+  }
   int failures = 0;
-  for (int kib = 8'000; kib < 70'000; kib = kib * 9 / 8) {
-    const auto limited = [&](const std::string& command) {
-      return shell("cd " + folder.path() + " && ulimit -v " + std::to_string(kib) + " && LC_ALL=C " ISOCNC_BIN_DIR "/" +
-                   command + " > out 2> err");
-    };
-    // Below what the loader and the libraries take before main().
-    if (limited(GetParam().substr(0, GetParam().find(' ')) + " --version") > 2) continue;
-    const int status = limited(GetParam());
+  // Finely at first: some need little more than that.
+  for (int more = 0; enough + more < kMost; more = more * 3 / 2 + 64) {
+    const int kib = enough + more;
+    const int status = limited(kib, GetParam());
     if (status < 2) continue;
     ++failures;
     EXPECT_EQ(status, 2) << kib;
