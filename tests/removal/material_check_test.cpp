@@ -6,12 +6,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "interpreter/stock/stock_file.h"
 #include "interpreter/verification/verification_report.h"
+#include "tests/support/random.h"
 #include "tests/verification/scenes.h"
 
 namespace isocnc::verification {
@@ -535,19 +536,32 @@ TEST(Material, PiecesThatNothingHolds) {
   EXPECT_EQ(told(Bench().cut(around + "Y120\nG00 Z50\n")), Lines());
 }
 
+/// As many motions as several batches hold, each a little deeper than those before, with tools in between.
 TEST(Material, ThreadsChangeNothing) {
-  const std::string moves =
-      "G00 X320 Y120 Z50\nG01 Z30 F1000\nX380\nY180\nX320\nY120\nG00 Z25\nX380 Y180\nZ50\nG01 Z-25\nG00 Z50\n";
-  const VerifiedRun alone = Bench().cut(moves);
-  const VerifiedRun together = Bench().cut(moves, [](const std::function<void()>& work) {
-    std::thread other(work);
-    work();
-    other.join();
-  });
-  EXPECT_EQ(told(alone), told(together));
-  EXPECT_FALSE(told(alone).empty());
-  EXPECT_TRUE(alone.material->stock.tiles_changed_since(together.material->stock).empty() ||
-              alone.material->stock.volume() == together.material->stock.volume());
+  constexpr int kMotions = 9000;
+  support::Random random(3);
+  std::string moves = "G00 X350 Y150 Z50\nG01 Z45 F6000\n";
+  for (int i = 0; i < kMotions; ++i) {
+    if (i % 1700 == 1699) moves += "G00 Z60\nM06 T101001\nS12000 M03\nG00 X350 Y150 Z50\nG01 Z45\n";
+    const int code = i % 500 == 0 ? 0 : 1;  // Rapids meet material.
+    const double ceiling = 44 - 60.0 * i / kMotions;
+    moves += fmt::format("G0{} X{:.2f} Y{:.2f} Z{:.2f}\n", code, random.real(295, 405), random.real(95, 205),
+                         random.real(ceiling - 4, ceiling));
+  }
+  const auto all_of = [&](WorkTogether together) {
+    const VerifiedRun run = Bench().cut(moves, std::move(together));
+    std::vector<std::string> all = told(run);
+    for (const removal::RemovedByTool& each : run.material->by_tool)
+      all.push_back(fmt::format("{} {} {}", each.removed.volume, each.removed.depth, each.seconds));
+    for (const simulation::RemovedOnLine& each : run.material->by_line)
+      all.push_back(fmt::format("{} {} {}", each.line, each.volume, each.depth));
+    all.push_back(stock::write_stock(run.material->stock));
+    return all;
+  };
+  const std::vector<std::string> alone = all_of({});
+  EXPECT_GT(alone.size(), 1000u);
+  EXPECT_TRUE(all_of(on_threads(2)) == alone);
+  EXPECT_TRUE(all_of(on_threads(3)) == alone);
 }
 
 TEST(Material, TiltedToolsCutTheVolumeOfTheirClosedForm) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -301,20 +300,17 @@ TEST(Contacts, AnyNumberOfThreadsFindsTheSame) {
   Shop shop(MachineKind::Head);
   shop.box("clamp 1", {100, -20, 0}, {140, 20, 30});
   shop.pin("pin", {-100, 50, 0}, {0, 0, 1}, 60, 12);
-  const std::string program = many_moves(7).replace(28, 0, "");
-  const auto with = [&](int threads) {
-    const VerifiedRun run = shop.run(program, [threads](const std::function<void()>& work) {
-      std::vector<std::thread> all;
-      for (int i = 0; i < threads; ++i) all.emplace_back(work);
-      for (std::thread& thread : all) thread.join();
-    });
+  const std::string program = many_moves(7);
+  const auto with = [&](WorkTogether together) {
+    const VerifiedRun run = shop.run(program, std::move(together));
     std::string text = told(run.contacts);
     for (const Contact& contact : run.contacts) text += fmt::format("{} {}\n", contact.time, contact.end_time);
     return text;
   };
-  const std::string one = told(shop.run(program).contacts);
-  EXPECT_FALSE(one.empty());
-  EXPECT_EQ(with(1), with(3));
+  const std::string alone = with({});
+  EXPECT_FALSE(alone.empty());
+  EXPECT_EQ(with(on_threads(2)), alone);
+  EXPECT_EQ(with(on_threads(4)), alone);
 }
 
 /// What sampling shows: the smallest distance of the solid tool from each obstacle, at many moments and many points of
