@@ -118,16 +118,18 @@ HeightInterval SweptPiece::shadow(double y) const {
   return x;
 }
 
+SweptPiece::FloatLines SweptPiece::floats_from_base(double x, double step, double y) const {
+  return {static_cast<float>(x - base_.x()), static_cast<float>(step), static_cast<float>(y - base_.y()),
+          static_cast<float>(base_.z())};
+}
+
 /// For each line, any vector n with n.z <= 0 serves for which no point of the sweep is as far along n as the line at
 /// its height: what is below is even farther along n. The one from the nearest point of the core, moved by a share of
 /// the travel, does where any does, or nearly so. Upwards the same with n.z >= 0. In a loop that becomes vectors.
 ISOCNC_VECTOR_CLONES void SweptPiece::clear_core(double x, double step, double y, int count, const float* tops,
                                                  float* clearances) const {
   const FloatForm form = floats_;
-  const auto first = static_cast<float>(x - base_.x());
-  const auto spacing = static_cast<float>(step);
-  const auto dy = static_cast<float>(y - base_.y());
-  const auto base_z = static_cast<float>(base_.z());
+  const auto [first, spacing, dy, base_z] = floats_from_base(x, step, y);
   for (int i = 0; i < count; ++i) {
     const float dx = first + static_cast<float>(i) * spacing;
     const float dz = tops[i] - base_z;
@@ -161,10 +163,7 @@ ISOCNC_VECTOR_CLONES void SweptPiece::clear_core(double x, double step, double y
 ISOCNC_VECTOR_CLONES void SweptPiece::clear_ball(double x, double step, double y, int count, const float* tops,
                                                  float* clearances) const {
   const FloatForm form = floats_;
-  const auto first = static_cast<float>(x - base_.x());
-  const auto spacing = static_cast<float>(step);
-  const auto dy = static_cast<float>(y - base_.y());
-  const auto base_z = static_cast<float>(base_.z());
+  const auto [first, spacing, dy, base_z] = floats_from_base(x, step, y);
   for (int i = 0; i < count; ++i) {
     const float dx = first + static_cast<float>(i) * spacing;
     const float dz = tops[i] - base_z;
@@ -184,10 +183,7 @@ ISOCNC_VECTOR_CLONES void SweptPiece::clear_ball(double x, double step, double y
 ISOCNC_VECTOR_CLONES void SweptPiece::clear_cylinder(double x, double step, double y, int count, const float* tops,
                                                      float* clearances) const {
   const FloatForm form = floats_;
-  const auto first = static_cast<float>(x - base_.x());
-  const auto spacing = static_cast<float>(step);
-  const auto dy = static_cast<float>(y - base_.y());
-  const auto base_z = static_cast<float>(base_.z());
+  const auto [first, spacing, dy, base_z] = floats_from_base(x, step, y);
   const float drop = positive(-form.rise) + form.rounding;
   for (int i = 0; i < count; ++i) {
     const float dx = first + static_cast<float>(i) * spacing;

@@ -53,6 +53,14 @@ class SweptPiece {
   HeightInterval rounded_chord(const geometry::Vec2& line) const;
   void include_disc(const SweptDisc& disc, const geometry::Vec2& line, HeightInterval& result) const;
   void include_edge(const SweptEdge& edge, const geometry::Vec2& line, HeightInterval& result) const;
+  /// Vertical lines in a row, as seen from base_.
+  struct FloatLines {
+    float first;
+    float spacing;
+    float dy;
+    float base_z;
+  };
+  FloatLines floats_from_base(double x, double step, double y) const;
   void clear_core(double x, double step, double y, int count, const float* tops, float* clearances) const;
   void clear_cylinder(double x, double step, double y, int count, const float* tops, float* clearances) const;
   void clear_ball(double x, double step, double y, int count, const float* tops, float* clearances) const;
