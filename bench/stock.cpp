@@ -6,12 +6,12 @@
 #include <functional>
 #include <numbers>
 #include <random>
-#include <thread>
 #include <variant>
 #include <vector>
 
 #include "interpreter/solids/tool_shapes.h"
 #include "interpreter/stock/stock.h"
+#include "tests/support/threads.h"
 
 namespace isocnc::stock {
 namespace {
@@ -62,12 +62,7 @@ std::vector<Sweep> walk(const RevolvedBody& tool, double length, Kind kind, std:
 void cut(benchmark::State& state, const RevolvedBody& tool, double length, double spacing, Kind kind, int threads,
          std::size_t count) {
   const std::vector<Sweep> sweeps = walk(tool, length, kind, count);
-  const Workers workers = [&](const std::function<void()>& work) {
-    std::vector<std::thread> all;
-    for (int i = 1; i < threads; ++i) all.emplace_back(work);
-    work();
-    for (std::thread& thread : all) thread.join();
-  };
+  const Workers workers = support::on_threads(threads);
   constexpr std::size_t kBatch = 65536;
   for (auto _ : state) {
     Stock stock(solids::Cuboid{{0, 0, -18}, {1000, 1000, 0}}, spacing);

@@ -4,13 +4,13 @@
 
 #include <cstdio>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "interpreter/simulation/compensation.h"
 #include "interpreter/solids/tool_shapes.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/verification/verified_run.h"
+#include "tests/support/threads.h"
 
 namespace isocnc::verification {
 namespace {
@@ -88,12 +88,7 @@ void run_alone(benchmark::State& state, const Case& of) {
 }
 
 void verify(benchmark::State& state, Case& of, int threads) {
-  const auto together = [threads](const std::function<void()>& work) {
-    std::vector<std::thread> others;
-    for (int i = 1; i < threads; ++i) others.emplace_back(work);
-    work();
-    for (std::thread& thread : others) thread.join();
-  };
+  const WorkTogether together = support::on_threads(threads);
   std::size_t contacts = 0;
   std::size_t near_misses = 0;
   for (auto _ : state) {

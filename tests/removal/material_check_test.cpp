@@ -13,6 +13,7 @@
 #include "interpreter/stock/stock_file.h"
 #include "interpreter/verification/verification_report.h"
 #include "tests/support/random.h"
+#include "tests/support/threads.h"
 #include "tests/verification/scenes.h"
 
 namespace isocnc::verification {
@@ -560,8 +561,8 @@ TEST(Material, ThreadsChangeNothing) {
   };
   const std::vector<std::string> alone = all_of({});
   EXPECT_GT(alone.size(), 1000u);
-  EXPECT_TRUE(all_of(on_threads(2)) == alone);
-  EXPECT_TRUE(all_of(on_threads(3)) == alone);
+  EXPECT_TRUE(all_of(support::on_threads(2)) == alone);
+  EXPECT_TRUE(all_of(support::on_threads(3)) == alone);
 }
 
 TEST(Material, TiltedToolsCutTheVolumeOfTheirClosedForm) {

@@ -1,24 +1,17 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <thread>
 
 #include "cuts.h"
 #include "tests/support/random.h"
+#include "tests/support/threads.h"
 
 /// The stock as a value: copies, questions, threads, and sweeps that make no sense.
 namespace isocnc::stock::cuts {
 namespace {
 
+using support::on_threads;
 using support::Random;
-
-Workers threads(int count) {
-  return [count](const std::function<void()>& work) {
-    std::vector<std::thread> all;
-    for (int i = 0; i < count; ++i) all.emplace_back(work);
-    for (std::thread& thread : all) thread.join();
-  };
-}
 
 /// Both stocks are the same to the last bit, with the record of their cuts.
 void expect_same(const Stock& one, const Stock& other) {
@@ -48,7 +41,7 @@ TEST(Stock, IsTheSameForAnyNumberOfThreads) {
     const auto outcomes = alone.apply(sweeps);
     for (const int count : {1, 2, 7}) {
       Stock together(kPlate, 0.7);
-      expect_same(together.apply(sweeps, threads(count)), outcomes);
+      expect_same(together.apply(sweeps, on_threads(count)), outcomes);
       expect_same(together, alone);
       if (HasFatalFailure()) return;
     }
@@ -239,7 +232,7 @@ TEST(Stock, FindingMeetsWhatAskingMeets) {
       found[i].contains_last = i % 2 == 1;
     }
     const auto of_asked = stock.apply(asked);
-    const auto of_found = stock.apply(found, threads(3));
+    const auto of_found = stock.apply(found, on_threads(3));
     for (std::size_t i = 0; i < asked.size(); ++i) {
       ASSERT_EQ(of_found[i].meets(), of_asked[i].meets()) << "seed " << seed << ", sweep " << i;
       EXPECT_LE(of_found[i].depth, of_asked[i].depth) << "seed " << seed << ", sweep " << i;

@@ -8,6 +8,7 @@
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/simulation/timed_run.h"
 #include "tests/support/random.h"
+#include "tests/support/threads.h"
 #include "tests/verification/scenes.h"
 
 namespace isocnc::verification {
@@ -309,8 +310,8 @@ TEST(Contacts, AnyNumberOfThreadsFindsTheSame) {
   };
   const std::string alone = with({});
   EXPECT_FALSE(alone.empty());
-  EXPECT_EQ(with(on_threads(2)), alone);
-  EXPECT_EQ(with(on_threads(4)), alone);
+  EXPECT_EQ(with(support::on_threads(2)), alone);
+  EXPECT_EQ(with(support::on_threads(4)), alone);
 }
 
 /// What sampling shows: the smallest distance of the solid tool from each obstacle, at many moments and many points of

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -26,16 +25,6 @@ inline std::shared_ptr<const solids::Mesh> mesh_of(const solids::Cuboid& box) {
     triangles.push_back({{corner(quad[0]), corner(quad[2]), corner(quad[3])}});
   }
   return std::make_shared<const solids::Mesh>(std::move(triangles));
-}
-
-/// Runs work on this thread and on others, `count` in all.
-inline WorkTogether on_threads(int count) {
-  return [count](const std::function<void()>& work) {
-    std::vector<std::thread> others;
-    for (int i = 1; i < count; ++i) others.emplace_back(work);
-    work();
-    for (std::thread& thread : others) thread.join();
-  };
 }
 
 /// A scene and the machine that runs in it. The tool T101001 is a flat cutter of radius 10, 60 long, in a holder of
