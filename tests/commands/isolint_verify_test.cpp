@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run_command.h"
+#include "tests/support/example_programs.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_of_file.h"
 
@@ -197,14 +198,6 @@ TEST_F(IsolintVerify, PlainRunFailsAndSaysWhy) {
   EXPECT_THAT(run({"isorun", "part.iso"}).err, Not(HasSubstr("E160")));
 }
 
-std::vector<std::filesystem::path> example_programs() {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(ISOCNC_SOURCE_DIR "/examples"))
-    if (entry.path().extension() == ".iso") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 using Place = std::tuple<int, int, std::string>;
 
 std::set<Place> places_in(const json& findings, const std::set<std::string>& left_out = {}) {
@@ -223,7 +216,7 @@ TEST(IsolintVerifyExamples, IsTheUnionOfTheTextAndTheRun) {
                                                           {"--config", examples + "machines/three-axis.json"},
                                                           {"--config", examples + "compensation/isocnc.json"}};
   std::size_t of_runs = 0;
-  for (const std::filesystem::path& file : example_programs()) {
+  for (const std::filesystem::path& file : support::example_programs()) {
     for (const std::vector<std::string>& machine : machines) {
       const auto findings_of = [&](std::vector<std::string> command) {
         command.insert(command.end(), machine.begin(), machine.end());
@@ -254,7 +247,7 @@ TEST(IsolintVerifyExamples, IsTheUnionOfTheTextAndTheRun) {
 }
 
 TEST(IsolintVerifyExamples, FindsNothingInThoseThatAreRight) {
-  for (const std::filesystem::path& file : example_programs()) {
+  for (const std::filesystem::path& file : support::example_programs()) {
     if (file.parent_path().filename() == "broken") continue;
     // In one of them the operator sets a register.
     EXPECT_EQ(run_command({"isolint", "--format", "concise", "--verify", "--ignore", "W162", file}).out,

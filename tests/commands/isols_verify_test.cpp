@@ -12,6 +12,7 @@
 #include "run_command.h"
 #include "tests/lsp/session.h"
 #include "tests/lsp/watched_runs.h"
+#include "tests/support/example_programs.h"
 #include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
@@ -87,10 +88,9 @@ TEST(IsolsVerify, ShowsOfEachExampleWhatIsolintShows) {
                 {{"locale", "en"}});
   std::size_t programs = 0;
   std::size_t of_machine = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(ISOCNC_SOURCE_DIR) / "examples")) {
-    if (entry.path().extension() != ".iso") continue;
-    const std::vector<Shown> expected = shown_by_isolint(entry.path());
-    EXPECT_EQ(shown_by_isols(verified_diagnostics(session, runs, entry.path())), expected) << entry.path();
+  for (const fs::path& program : support::example_programs()) {
+    const std::vector<Shown> expected = shown_by_isolint(program);
+    EXPECT_EQ(shown_by_isols(verified_diagnostics(session, runs, program)), expected) << program;
     ++programs;
     of_machine += static_cast<std::size_t>(
         std::count_if(expected.begin(), expected.end(), [](const Shown& each) { return std::get<bool>(each); }));
