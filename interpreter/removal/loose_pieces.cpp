@@ -15,15 +15,7 @@ static constexpr double kMinWidth = 2;     // mm
 static bool touches(const StockPiece& piece, const stock::Stock& stock, const solids::BoundingBox& box) {
   const solids::BoundingBox near(box.min().array() - kTouch - stock.spacing(),
                                  box.max().array() + kTouch + stock.spacing());
-  if (!near.intersects(piece.bounds)) return false;
-  bool found = false;
-  for_each_interval(piece, [&](int column, int row, const stock::HeightInterval& z) {
-    const double x = stock.grid().x(column);
-    const double y = stock.grid().y(row);
-    found = found || (x >= near.min().x() && x <= near.max().x() && y >= near.min().y() && y <= near.max().y() &&
-                      z.bottom <= near.max().z() && z.top >= near.min().z());
-  });
-  return found;
+  return has_material_in(piece, near);
 }
 
 /// Whether a piece goes on outside the window, where nobody knows what holds it.

@@ -888,7 +888,7 @@ void MaterialCheck::look_for_loose_pieces() {
     if (std::any_of(loose_.begin(), loose_.end(), is_known)) continue;
     loose_.push_back(piece.bounds);
     Incident incident{.kind = IncidentKind::LoosePiece,
-                      .line = piece.last_cut.value_or(static_cast<stock::CutTag>(last_line_)),
+                      .line = stock::last_cut_beside(piece).value_or(static_cast<stock::CutTag>(last_line_)),
                       .time = last_time_,
                       .tool = code_,
                       .amount = piece.bounds.sizes().z(),

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
 
 namespace isocnc::stock {
+
+using solids::BoundingBox;
 
 namespace {
 
@@ -65,68 +68,123 @@ class PieceLabels {
 
   std::vector<StockPiece> measure() {
     std::vector<StockPiece> pieces = number_pieces();
-    std::vector<std::pair<int, int>> last_dexel(pieces.size(), {-1, -1});
-    const DexelGrid& grid = stock_.grid();
-    const auto add = [&](StockPiece& piece, int row, int column, int rows, int columns, float bottom, float top) {
-      piece.volume += static_cast<double>(top - bottom) * grid.cell() * rows * columns;
-      const geometry::Vec2 half = grid.spacing / 2;
-      piece.bounds.extend(geometry::Vec3(grid.x(column) - half.x(), grid.y(row) - half.y(), bottom));
-      piece.bounds.extend(
-          geometry::Vec3(grid.x(column + columns - 1) + half.x(), grid.y(row + rows - 1) + half.y(), top));
-      auto& last = last_dexel[piece.number];
-      if (last != std::pair(row, column))
-        piece.dexels += static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
-      last = {row, column};
-    };
+    std::vector<PieceExtent> extents(pieces.size());
     for_each_tile([&](const TileIndex& index) {
       const Tile& tile = stock_.tile(index);
       const int row = index.row * Tile::kSize;
       const int column = index.column * Tile::kSize;
       if (tile.is_uniform()) {
-        if (tile.is_empty()) return;
-        StockPiece& piece = pieces[labels(index).front()];
-        add(piece, row, column, tile.rows(), tile.columns(), tile.floor(), tile.ceiling());
-        note_cuts_around(index, piece);
+        if (!tile.is_empty())
+          extents[labels(index).front()].add(row, column, tile.rows(), tile.columns(), tile.floor(), tile.ceiling());
         return;
       }
-      std::size_t next = 0;
+      const Mark* label = labels(index).data();
       for (int i = 0; i < tile.rows(); ++i)
-        tile.for_each_interval(i, [&](int k, float bottom, float top) {
-          StockPiece& piece = pieces[labels(index)[next++]];
-          add(piece, row + i, column + k, 1, 1, bottom, top);
-          note_cut(row + i, column + k, piece);
-          note_cut(row + i, column + k - 1, piece);
-          note_cut(row + i, column + k + 1, piece);
-          note_cut(row + i - 1, column + k, piece);
-          note_cut(row + i + 1, column + k, piece);
-        });
+        tile.for_each_interval(
+            i, [&](int k, float bottom, float top) { extents[*label++].add(row + i, column + k, 1, 1, bottom, top); });
     });
+    for (StockPiece& piece : pieces) extents[piece.number].describe(piece, stock_.grid());
     return pieces;
   }
 
   /// After measure().
-  void for_each_interval(const StockPiece& piece,
-                         const std::function<void(int column, int row, const HeightInterval& z)>& use) const {
+  bool has_material_in(const StockPiece& piece, const BoundingBox& box) const {
     const DexelGrid& grid = stock_.grid();
-    const auto first_column = grid.first_column(piece.bounds.min().x()) / Tile::kSize;
-    const auto first_row = grid.first_row(piece.bounds.min().y()) / Tile::kSize;
-    const auto last_column = (grid.first_column(piece.bounds.max().x()) - 1) / Tile::kSize;
-    const auto last_row = (grid.first_row(piece.bounds.max().y()) - 1) / Tile::kSize;
-    for (int tile_row = first_row; tile_row <= last_row; ++tile_row)
-      for (int tile_column = first_column; tile_column <= last_column; ++tile_column) {
-        const TileIndex index{tile_column, tile_row};
-        const Tile& tile = stock_.tile(index);
-        std::size_t next = 0;
-        for (int row = 0; row < tile.rows(); ++row)
-          tile.for_each_interval(row, [&](int column, float bottom, float top) {
-            const Mark label = labels(index)[tile.is_uniform() ? 0 : next++];
-            if (label == piece.number)
-              use(tile_column * Tile::kSize + column, tile_row * Tile::kSize + row, HeightInterval{bottom, top});
-          });
+    const auto is_in = [](double value, double least, double most) { return value >= least && value <= most; };
+    return is_any_tile(piece.bounds.intersection(box), [&](const TileIndex& index) {
+      bool is_found = false;
+      for_each_interval(piece, index, [&](int row, int column, float bottom, float top) {
+        is_found =
+            is_found ||
+            (static_cast<double>(bottom) <= box.max().z() && static_cast<double>(top) >= box.min().z() &&
+             is_in(grid.x(column), box.min().x(), box.max().x()) && is_in(grid.y(row), box.min().y(), box.max().y()));
+      });
+      return is_found;
+    });
+  }
+
+  /// After measure().
+  template <class Use>
+  void for_each_interval(const StockPiece& piece, Use&& use) const {
+    is_any_tile(piece.bounds, [&](const TileIndex& index) {
+      for_each_interval(piece, index, use);
+      return false;
+    });
+  }
+
+  /// After measure().
+  std::optional<CutTag> last_cut_beside(const StockPiece& piece) const {
+    std::optional<CutTag> last;
+    for_each_interval(piece, [&](int row, int column, float, float) {
+      for (const auto& [down, right] : {std::pair(0, 0), {0, -1}, {0, 1}, {-1, 0}, {1, 0}}) {
+        const auto tag = cut_by(row + down, column + right);
+        if (tag && (!last || *tag > *last)) last = tag;
       }
+    });
+    return last;
   }
 
  private:
+  /// How far the dexels of a piece reach.
+  class PieceExtent {
+   public:
+    void add(int row, int column, int rows, int columns, float bottom, float top) {
+      length_ += static_cast<double>(top - bottom) * rows * columns;
+      first_row_ = std::min(first_row_, row);
+      last_row_ = std::max(last_row_, row + rows - 1);
+      first_column_ = std::min(first_column_, column);
+      last_column_ = std::max(last_column_, column + columns - 1);
+      bottom_ = std::min(bottom_, bottom);
+      top_ = std::max(top_, top);
+    }
+    void describe(StockPiece& piece, const DexelGrid& grid) const {
+      const geometry::Vec2 half = grid.spacing / 2;
+      piece.volume = length_ * grid.cell();
+      piece.bounds = {
+          geometry::Vec3(grid.x(first_column_) - half.x(), grid.y(first_row_) - half.y(), static_cast<double>(bottom_)),
+          geometry::Vec3(grid.x(last_column_) + half.x(), grid.y(last_row_) + half.y(), static_cast<double>(top_))};
+    }
+
+   private:
+    double length_ = 0;
+    int first_row_ = std::numeric_limits<int>::max();
+    int last_row_ = -1;
+    int first_column_ = std::numeric_limits<int>::max();
+    int last_column_ = -1;
+    float bottom_ = std::numeric_limits<float>::infinity();
+    float top_ = -std::numeric_limits<float>::infinity();
+  };
+
+  /// Calls `use(row, column, bottom, top)`, of the whole grid, with the intervals of a piece in a tile.
+  template <class Use>
+  void for_each_interval(const StockPiece& piece, const TileIndex& index, Use&& use) const {
+    const Tile& tile = stock_.tile(index);
+    if (tile.is_empty()) return;
+    const Mark* label = labels(index).data();
+    const int step = tile.is_uniform() ? 0 : 1;
+    for (int row = 0; row < tile.rows(); ++row)
+      tile.for_each_interval(row, [&](int column, float bottom, float top) {
+        if (*label == piece.number)
+          use(index.row * Tile::kSize + row, index.column * Tile::kSize + column, bottom, top);
+        label += step;
+      });
+  }
+
+  /// Whether `is_it(index)` holds for any tile of a box, which may be empty.
+  template <class IsIt>
+  bool is_any_tile(const BoundingBox& box, IsIt&& is_it) const {
+    if (box.isEmpty()) return false;
+    const DexelGrid& grid = stock_.grid();
+    const int first_column = grid.first_column(box.min().x()) / Tile::kSize;
+    const int first_row = grid.first_row(box.min().y()) / Tile::kSize;
+    const int columns = std::min(across_, grid.first_column(box.max().x()) / Tile::kSize + 1);
+    const int rows = std::min(grid.tile_rows(), grid.first_row(box.max().y()) / Tile::kSize + 1);
+    for (int row = first_row; row < rows; ++row)
+      for (int column = first_column; column < columns; ++column)
+        if (is_it(TileIndex{column, row})) return true;
+    return false;
+  }
+
   template <class Use>
   void for_each_tile(Use&& use) const {
     for (int row = 0; row < stock_.grid().tile_rows(); ++row)
@@ -246,7 +304,7 @@ class PieceLabels {
       while (k < there.size() && there[k].top <= interval.bottom) ++k;
       for (std::size_t i = k; i < there.size() && there[i].bottom < interval.top; ++i) {
         if (interval.label == kNoMark) interval.label = there[i].label;
-        sets_.join(interval.label, there[i].label);
+        if (interval.label != there[i].label) sets_.join(interval.label, there[i].label);
       }
     }
   }
@@ -267,25 +325,10 @@ class PieceLabels {
     return pieces;
   }
 
-  void note_cut(int row, int column, StockPiece& piece) const {
-    if (row < 0 || row >= stock_.grid().rows || column < 0 || column >= stock_.grid().columns) return;
-    const auto tag =
-        stock_.tile({column / Tile::kSize, row / Tile::kSize}).cut_by(row % Tile::kSize, column % Tile::kSize);
-    if (tag && (!piece.last_cut || *tag > *piece.last_cut)) piece.last_cut = tag;
-  }
-  /// The dexels around a uniform tile, which itself has no cut.
-  void note_cuts_around(const TileIndex& index, StockPiece& piece) const {
-    const Tile& tile = stock_.tile(index);
-    const int row = index.row * Tile::kSize;
-    const int column = index.column * Tile::kSize;
-    for (int i = 0; i < tile.rows(); ++i) {
-      note_cut(row + i, column - 1, piece);
-      note_cut(row + i, column + tile.columns(), piece);
-    }
-    for (int i = 0; i < tile.columns(); ++i) {
-      note_cut(row - 1, column + i, piece);
-      note_cut(row + tile.rows(), column + i, piece);
-    }
+  /// Who cut a dexel last; no value outside the grid.
+  std::optional<CutTag> cut_by(int row, int column) const {
+    if (row < 0 || row >= stock_.grid().rows || column < 0 || column >= stock_.grid().columns) return std::nullopt;
+    return stock_.tile({column / Tile::kSize, row / Tile::kSize}).cut_by(row % Tile::kSize, column % Tile::kSize);
   }
 
   Stock stock_;
@@ -306,7 +349,18 @@ std::vector<StockPiece> pieces_of(const Stock& stock) {
 
 void for_each_interval(const StockPiece& piece,
                        const std::function<void(int column, int row, const HeightInterval& z)>& use) {
-  if (piece.labels) piece.labels->for_each_interval(piece, use);
+  if (!piece.labels) return;
+  piece.labels->for_each_interval(piece, [&](int row, int column, float bottom, float top) {
+    use(column, row, HeightInterval{bottom, top});
+  });
+}
+
+bool has_material_in(const StockPiece& piece, const BoundingBox& box) {
+  return piece.labels && piece.labels->has_material_in(piece, box);
+}
+
+std::optional<CutTag> last_cut_beside(const StockPiece& piece) {
+  return piece.labels ? piece.labels->last_cut_beside(piece) : std::nullopt;
 }
 
 }  // namespace isocnc::stock

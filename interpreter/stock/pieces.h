@@ -17,9 +17,6 @@ class PieceLabels;
 struct StockPiece {
   double volume = 0;           ///< mm^3
   solids::BoundingBox bounds;  ///< Of its dexels with their cells.
-  std::size_t dexels = 0;      ///< How many have some of its material.
-  /// The greatest tag of its dexels and of those beside them: the last sweep that may have cut it off.
-  std::optional<CutTag> last_cut;
 
   std::size_t number = 0;  ///< Its index among all of the stock.
   std::shared_ptr<const PieceLabels> labels;
@@ -32,5 +29,12 @@ std::vector<StockPiece> pieces_of(const Stock& stock);
 /// Calls `use` with all intervals of a piece: column and row in the whole grid.
 void for_each_interval(const StockPiece& piece,
                        const std::function<void(int column, int row, const HeightInterval& z)>& use);
+
+/// Whether a dexel whose line goes through the box has material of the piece between its bottom and top. Looks at the
+/// tiles of the box alone.
+bool has_material_in(const StockPiece& piece, const solids::BoundingBox& box);
+
+/// The greatest tag of the dexels of a piece and of those beside them: the last sweep that may have cut it off.
+std::optional<CutTag> last_cut_beside(const StockPiece& piece);
 
 }  // namespace isocnc::stock

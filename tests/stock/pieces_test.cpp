@@ -7,10 +7,13 @@
 
 #include "cuts.h"
 #include "interpreter/stock/pieces.h"
+#include "tests/support/random.h"
 
 /// The material divided into what hangs together.
 namespace isocnc::stock::cuts {
 namespace {
+
+using support::Random;
 
 /// An interval: row, column, number within its dexel.
 using Place = std::tuple<int, int, int>;
@@ -78,10 +81,9 @@ TEST(Pieces, OfAWholeBlankAreOne) {
   const std::vector<StockPiece> pieces = pieces_of(Stock(kPlate, 0.5));
   ASSERT_EQ(pieces.size(), 1U);
   EXPECT_NEAR(pieces[0].volume, 300 * 200 * 18, 1e-6);
-  EXPECT_EQ(pieces[0].dexels, 600U * 400U);
   EXPECT_NEAR((pieces[0].bounds.max() - Vec3(300, 200, 0)).norm(), 0, 1e-9);
   EXPECT_NEAR((pieces[0].bounds.min() - Vec3(0, 0, -18)).norm(), 0, 1e-9);
-  EXPECT_FALSE(pieces[0].last_cut);
+  EXPECT_FALSE(last_cut_beside(pieces[0]));
 }
 
 /// A frame around a part of 100 x 80 mm, that the fourth cut sets free.
@@ -96,11 +98,10 @@ TEST(Pieces, AppearWithTheCutThatFreesThem) {
   apply(stock, line(tool, {20, 20, -2}, {20, 20, -2}, {0, 0, 1}, 99));
   const std::vector<StockPiece> pieces = pieces_of(stock);
   ASSERT_EQ(pieces.size(), 2U);
-  EXPECT_EQ(pieces[0].last_cut, 99U) << "the frame";
+  EXPECT_EQ(last_cut_beside(pieces[0]), 99U) << "the frame";
   const StockPiece& part = pieces[1];
   EXPECT_NEAR(part.volume, 100 * 80 * 18, 1e-3);
-  EXPECT_EQ(part.dexels, 200U * 160U);
-  EXPECT_EQ(part.last_cut, 13U);
+  EXPECT_EQ(last_cut_beside(part), 13U);
   EXPECT_NEAR((part.bounds.min() - Vec3(100, 50, -18)).norm(), 0, 1e-6);
   EXPECT_NEAR((part.bounds.max() - Vec3(200, 130, 0)).norm(), 0, 1e-6);
 }
@@ -111,7 +112,6 @@ TEST(Pieces, MayLieAboveEachOther) {
   apply(stock, line(saw, {30, 20, -12}, {30, 20, -12}));
   const std::vector<StockPiece> pieces = pieces_of(stock);
   ASSERT_EQ(pieces.size(), 2U);
-  EXPECT_EQ(pieces[0].dexels, pieces[1].dexels);
   EXPECT_NEAR(pieces[0].volume, 60 * 40 * 8.0, 0.1) << "the lower one comes first: as large as the other";
   EXPECT_NEAR(pieces[1].volume, 60 * 40 * 8.0, 0.1);
 }
@@ -139,6 +139,35 @@ TEST(Pieces, AreThoseOfAFlood) {
     ASSERT_GT(pieces_of(stock).size(), 30U);
     expect_flooded(stock);
   }
+}
+
+/// Boxes of all sizes, some beside the stock, some with sides right on the lines of dexels.
+TEST(Pieces, KnowWhereTheyHaveMaterial) {
+  const SomeSweeps source;
+  Stock stock(kPlate, 1);
+  stock.apply(source.make(1, 120));
+  const RevolvedBody saw = flat(2, 40);
+  for (int i = 0; i < 6; ++i) apply(stock, line(saw, {i * 50.0 + 20, -10, -20}, {i * 50.0 + 20, 210, -20}));
+  const std::vector<StockPiece> pieces = pieces_of(stock);
+  Random random(7);
+  const double first = stock.grid().first.x();
+  int hits = 0;
+  for (int i = 0; i < 400; ++i) {
+    const StockPiece& piece = pieces[random.below(5)];  // The largest.
+    const Vec3 corner(first + random.between(-20, 320), first + random.between(-20, 220), random.between(-22, 3));
+    const Vec3 size(random.between(0, 1) * random.between(0, 150), random.between(0, 60), random.between(0, 6));
+    const solids::BoundingBox box(corner, corner + size);
+    bool is_there = false;
+    for_each_interval(piece, [&](int column, int row, const HeightInterval& z) {
+      const solids::BoundingBox material(Vec3(stock.grid().x(column), stock.grid().y(row), z.bottom),
+                                         Vec3(stock.grid().x(column), stock.grid().y(row), z.top));
+      is_there = is_there || box.intersects(material);
+    });
+    EXPECT_EQ(has_material_in(piece, box), is_there) << i;
+    hits += is_there ? 1 : 0;
+  }
+  EXPECT_GT(hits, 20);
+  EXPECT_LT(hits, 380);
 }
 
 TEST(Pieces, OfNothingAreNone) {
