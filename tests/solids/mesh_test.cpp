@@ -125,6 +125,20 @@ TEST(Mesh, IsConvexAlsoWhereItsFileHasRoundedItsCorners) {
   EXPECT_EQ(Mesh(bent).convex(), nullptr);
 }
 
+TEST(Mesh, TurnedInsideOutIsTheSameConvexSolid) {
+  std::vector<Triangle> triangles = scenes::box_triangles(kBrick);
+  for (Triangle& triangle : triangles) std::swap(triangle.corners[0], triangle.corners[1]);
+  const Mesh mesh(triangles);
+  ASSERT_NE(mesh.convex(), nullptr);
+  const ConvexSolid& solid = *mesh.convex();
+  ASSERT_EQ(solid.normals.size(), 6U);
+  const Vec3 half = kBrick.maximum;
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(solid.normals[i].norm(), 1, 1e-12);
+    EXPECT_NEAR(solid.heights[i], solid.normals[i].cwiseAbs().dot(half), 1e-12) << "outwards";
+  }
+}
+
 TEST(Mesh, IsConvexWithAsManySidesAsACylinderHas) {
   constexpr int kSides = 96;
   const auto rim = [](int i, double z) {

@@ -155,6 +155,7 @@ TEST(Stl, SaysWhereABinaryFileIsWrong) {
   EXPECT_EQ(problem.triangle, 2U);
   EXPECT_EQ(problem.offset, 84U + 2 * 50 + 12);
   EXPECT_EQ(std::get<StlProblem>(read_stl(binary(7, 3))).stated, 7U);
+  EXPECT_EQ(std::get<StlProblem>(read_stl(binary(0, 0))).offset, 80U) << "where the number of triangles is";
 }
 
 TEST(Stl, KeepsDegenerateTriangles) {
