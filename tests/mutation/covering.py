@@ -72,7 +72,7 @@ class Tests:
         self.seconds = {}
         self.reaching = collections.defaultdict(list)  # By number of mutant.
         with ThreadPoolExecutor(jobs) as pool:
-            tests = [test for test in self.all_of(build, programs) if not programs or test.case]
+            tests = self.all_of(build, programs)
             for test, passes, seconds, reached in pool.map(lambda test: self.look_at(test, mutant_count), tests):
                 if not passes:
                     print(f"mutate: left out, as it fails without a mutant: {test.name}", file=sys.stderr)
@@ -94,9 +94,11 @@ class Tests:
             environment = [tuple(each.split("=", 1)) for each in properties.get("ENVIRONMENT", [])]
             folder = properties["WORKING_DIRECTORY"]
             command = tuple(entry["command"])
+            if programs and Path(command[0]).name not in programs:
+                continue
             if not command[0].endswith("_tests"):
                 yield Test(command, folder, tuple(environment))
-            elif command[0] not in seen and (not programs or Path(command[0]).name in programs):
+            elif command[0] not in seen:
                 seen.add(command[0])
                 yield from Tests.cases_of(command[0], folder)
 

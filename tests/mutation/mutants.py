@@ -203,7 +203,7 @@ def sample(mutants, count, seed):
 
 
 def write(source, path, mutants):
-    """Writes a file with all of these mutants of it, by number, and returns which line holds which."""
+    """Writes a file with all of these mutants of it, by number; its lines keep their numbers."""
     result = source
     for number, mutant in sorted(mutants.items(), key=lambda each: -each[1].begin):
         result = result[: mutant.begin] + mutant.switched(number).encode() + result[mutant.end :]

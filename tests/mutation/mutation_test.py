@@ -91,7 +91,7 @@ class Mutants(unittest.TestCase):
         self.found = mutation.find(self.root, ["a.cpp"], ["-std=c++20"], 1)
 
     def test_are_what_could_be_a_slip(self):
-        self.assertEqual([str(each).removeprefix("a.cpp:") for each in self.found], FOUND)
+        self.assertEqual([text_of(each) for each in self.found], FOUND)
 
     def test_of_a_sample_do_not_overlap(self):
         some = mutation.sample(self.found, 1000, 7)
