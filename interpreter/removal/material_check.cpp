@@ -20,7 +20,7 @@ using stock::SweepPath;
 using stock::SweepPurpose;
 
 /// Stretches that wait at most.
-static constexpr std::size_t kBatch = 16'384;
+static constexpr std::size_t kBatch = 4096;
 /// Incidents that are kept.
 /// Ways on which nothing may be cut, of which the rest is removed later, at most.
 static constexpr std::size_t kMostPassed = 256;
@@ -29,14 +29,18 @@ static constexpr std::size_t kMostPassed = 256;
 static constexpr double kRimShare = 0.1;
 /// How exactly the first touch is told, as a part of its sweep.
 static constexpr int kHalvings = 16;
+/// Motions are cut to this part of the spacing: as pieces of curved paths, and where one piece stands for several.
+static constexpr double kPathShare = 1.0 / 40;
+/// The same along a dexel while the axis rests, mm.
+static constexpr double kHeightTolerance = 0.001;
 
 /// Seconds between the moments at which a watcher is asked first.
 static constexpr double kShortestMoment = 0.05;
 /// Where nothing is cut, that many of these are left out at once.
 static constexpr double kMaxMomentsApart = 10;
 
-/// What a cut may leave standing beside its body, mm: a tenth of the spacing by the pieces of curved paths, and a
-/// little for rounding.
+/// What a cut may leave standing beside its body, mm: an eighth of the spacing by the pieces of paths and of motions
+/// that turn the axis, and a little for rounding.
 static double rim_of(double spacing) { return spacing / 8 + 0.002; }
 
 /// What a cut may leave of what its program says, mm: at a rounded corner as much more as the corner strays, be it at
@@ -131,7 +135,7 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::
   divide(stretch, from, to);
   if (watcher_) show_moments(stretch);
   append_pieces(is_feed);
-  if (waiting_.size() == kBatch) cut_waiting();
+  if (waiting_.size() >= kBatch) cut_before_joined();
 }
 
 /// Adds the sweeps along the pieces to what waits, as those of its last stretch.
@@ -143,17 +147,47 @@ void MaterialCheck::append_pieces(bool is_feed) {
   stretch.rise = up.dot(end_of(pieces_.back().path) - start_of(pieces_.front().path).origin);
   stretch.way = way_taken_;
   const bool is_in_phases = !is_feed && asks_;
+  const Cutting cutting = cutting_of(is_feed);
+  if (joined_ && stretch.stretch.tag != joined_->tag) append_joined();
   for (TipPath& piece : pieces_) {
     stretch.length += length_of(piece.path);
     piece.path = moved(std::move(piece.path), -workpiece_.origin);
     const std::size_t index = waiting_.size() - 1;
     if (is_in_phases)
       rapid_.emplace_back(piece, index);
+    else if (is_feed && cutting == Cutting::Allowed)
+      join(piece, index);
     else
-      append_sweeps(piece, cutting_of(is_feed), index);
+      append_sweeps({piece.path, index, piece.from, index, piece.to}, cutting);
   }
   way_taken_ += stretch.length;
-  if (stretch.stretch.ends_move || stretch.is_standing) append_rapid();
+  if (!(stretch.stretch.ends_move || stretch.is_standing)) return;
+  append_joined();
+  append_rapid();
+}
+
+/// Adds a piece of a feed motion to those before it, of which one sweep is made.
+void MaterialCheck::join(const TipPath& piece, std::size_t stretch) {
+  const JoinedPath::Tolerance tolerance{.aside = stock_.spacing() * kPathShare, .in_height = kHeightTolerance};
+  if (joined_ && joined_->path.add(piece, tolerance)) {
+    joined_->last = stretch;
+    joined_->to = piece.to;
+    return;
+  }
+  append_joined();
+  joined_ = {.path = JoinedPath(piece),
+             .tag = waiting_[stretch].stretch.tag,
+             .first = stretch,
+             .from = piece.from,
+             .last = stretch,
+             .to = piece.to};
+}
+
+void MaterialCheck::append_joined() {
+  if (!joined_) return;
+  const PathOfSweeps path{joined_->path.path(), joined_->first, joined_->from, joined_->last, joined_->to};
+  joined_.reset();
+  append_sweeps(path, Cutting::Allowed);
 }
 
 /// Adds the sweeps of a rapid, which has phases of acceleration and jerk. How deep the cutter goes counts from the
@@ -161,27 +195,35 @@ void MaterialCheck::append_pieces(bool is_feed) {
 void MaterialCheck::append_rapid() {
   if (rapid_.empty()) return;
   change_cutting(Cutting::InRapid);
-  for (const auto& [piece, stretch] : rapid_) append_sweep(forms_->passing_cutter(), piece, Role::RapidCutter, stretch);
-  for (const auto& [piece, stretch] : rapid_) append_sweeps(piece, Cutting::InRapid, stretch);
+  const auto path_of = [](const std::pair<TipPath, std::size_t>& each) {
+    const auto& [piece, stretch] = each;
+    return PathOfSweeps{piece.path, stretch, piece.from, stretch, piece.to};
+  };
+  for (const auto& each : rapid_) append_sweep(forms_->passing_cutter(), path_of(each), Role::RapidCutter);
+  for (const auto& each : rapid_) append_sweeps(path_of(each), Cutting::InRapid);
   rapid_.clear();
 }
 
 /// Sets the pieces of a stretch between two path parameters. A long tool needs many of them while its axis turns, but
 /// where only the cutter may come near the blank, those that it needs are enough.
 void MaterialCheck::divide(const motion::Stretch& stretch, double begin, double end) {
-  const double tolerance = stock_.spacing() / 40;
+  const double tolerance = stock_.spacing() * kPathShare;
   const double reach = forms_->reach();
   const double cutter_reach = forms_->cutter_reach();
-  const auto append = [&](double of) {
+  const auto append = [&](const ToolReach& of) {
     pieces_.clear();
     append_tip_paths(machine_.motion.kinematics, stretch.path, begin, end, of, tolerance, pieces_);
   };
-  append(cutter_reach > 0 ? cutter_reach : reach);
-  if (!(cutter_reach > 0 && cutter_reach < reach)) return;
+  if (!(cutter_reach > 0)) return append({.distance = reach});
+  append({.distance = cutter_reach,
+          .top = stock_.bounds().max().z() + workpiece_.origin.z(),
+          .radius = forms_->cutter()->maximum_radius()});
+  if (!(cutter_reach < reach)) return;
   if (pieces_.empty() || !std::holds_alternative<stock::TurningPath>(pieces_.front().path)) return;
-  // How far a point of the tool may be from where these pieces have it: within the tolerance at both ends of the
-  // cutter, and beyond as on a line through them.
-  const double error = 2 * tolerance * reach / cutter_reach;
+  // How far a point of the tool may be from where these pieces have it: within the tolerance at both ends of what
+  // matters of the cutter, and beyond as on a line through them. Where one piece stands for several, it is off as much
+  // again.
+  const double error = 4 * tolerance * reach / pieces_.front().reach;
   const bool is_cutter_alone = std::none_of(pieces_.begin(), pieces_.end(), [&](const TipPath& piece) {
     const SweepPath tip = moved(piece.path, -workpiece_.origin);
     const auto is_near = [&](const RevolvedBody* body, Role role) {
@@ -191,7 +233,7 @@ void MaterialCheck::divide(const motion::Stretch& stretch, double begin, double 
            is_near(forms_->holder(), Role::Holder) || is_near(forms_->holder_with_clearance(), Role::HolderNear) ||
            is_near(forms_->nose(), Role::Nose) || is_near(forms_->nose_with_clearance(), Role::NoseNear);
   });
-  if (!is_cutter_alone) append(reach);
+  if (!is_cutter_alone) append({.distance = reach});
 }
 
 /// Shows the moments before the last stretch that waits, and those within it. What is cut up to a moment within it is
@@ -202,19 +244,21 @@ void MaterialCheck::show_moments(const motion::Stretch& stretch) {
   const UncutStretch last = std::move(waiting_.back());
   waiting_.pop_back();
   const std::vector<TipPath> pieces = pieces_;
-  cut_waiting();
+  cut_before_joined();
   for (; next_moment_ <= end; has_cuts_to_show_ = false) {
     const double moment = next_moment_;
     Stock partial = stock_;
     bool is_cut = has_cuts_to_show_;
     if (moment > stretch.start && forms_->cutter()) {
-      divide(stretch, stretch.phases[0].from, stretch.parameter_at(moment));
-      for (const TipPath& piece : pieces_) {
+      const auto cut = [&](const SweepPath& path) {
         const Sweep sweep{.body = removing_cutter(cutting_of(last.is_feed)),
-                          .path = moved(piece.path, -workpiece_.origin),
+                          .path = path,
                           .tag = static_cast<stock::CutTag>(last.line)};
         if (may_meet(*sweep.body, sweep.path)) is_cut = partial.apply({&sweep, 1}).front().meets() || is_cut;
-      }
+      };
+      if (joined_) cut(joined_->path.path());
+      divide(stretch, stretch.phases[0].from, stretch.parameter_at(moment));
+      for (const TipPath& piece : pieces_) cut(moved(piece.path, -workpiece_.origin));
     }
     if (is_cut) {
       next_moment_ = std::max(watcher_(partial, moment), std::nextafter(moment, HUGE_VAL));
@@ -246,7 +290,8 @@ const RevolvedBody* MaterialCheck::removing_cutter(Cutting cutting) const {
 void MaterialCheck::append_rest() {
   for (PassedPath& each : passed_) {
     sweeps_.push_back({.body = forms_->cutter(), .path = std::move(each.path), .tag = each.tag});
-    uses_.push_back({static_cast<std::uint32_t>(waiting_.size() - 1), Role::Rest, 0, 0});
+    const auto last = static_cast<std::uint32_t>(waiting_.size() - 1);
+    uses_.push_back({last, last, Role::Rest, 0, 0});
   }
   passed_.clear();
 }
@@ -256,46 +301,45 @@ void MaterialCheck::change_cutting(Cutting cutting) {
   cutting_ = cutting;
 }
 
-void MaterialCheck::append_sweeps(const TipPath& piece, Cutting cutting, std::size_t stretch) {
+void MaterialCheck::append_sweeps(const PathOfSweeps& path, Cutting cutting) {
   change_cutting(cutting);
   const RevolvedBody* const cutter = removing_cutter(cutting);
-  if (cutter && cutter != forms_->cutter() && may_meet(*cutter, piece.path))
-    passed_.push_back({piece.path, static_cast<stock::CutTag>(waiting_[stretch].line)});
-  if (!asks_) return append_sweep(cutter, piece, Role::Cut, stretch);
+  if (cutter && cutter != forms_->cutter() && may_meet(*cutter, path.tip))
+    passed_.push_back({path.tip, static_cast<stock::CutTag>(waiting_[path.last].line)});
+  if (!asks_) return append_sweep(cutter, path, Role::Cut);
   // append_rapid() asks for all of its pieces first.
-  if (cutting == Cutting::InRapid && rapid_.empty())
-    append_sweep(forms_->passing_cutter(), piece, Role::RapidCutter, stretch);
-  if (cutting == Cutting::Standing) append_sweep(forms_->passing_cutter(), piece, Role::StandingCutter, stretch);
-  append_sweep(cutter, piece, Role::Cut, stretch);
-  append_sweep(forms_->shank(), piece, Role::Shank, stretch);
-  append_sweep(forms_->shank_with_wall(), piece, Role::ShankWall, stretch);
-  append_sweep(forms_->holder(), piece, Role::Holder, stretch);
-  append_sweep(forms_->holder_with_clearance(), piece, Role::HolderNear, stretch);
-  append_sweep(forms_->nose(), piece, Role::Nose, stretch);
-  append_sweep(forms_->nose_with_clearance(), piece, Role::NoseNear, stretch);
+  if (cutting == Cutting::InRapid && rapid_.empty()) append_sweep(forms_->passing_cutter(), path, Role::RapidCutter);
+  if (cutting == Cutting::Standing) append_sweep(forms_->passing_cutter(), path, Role::StandingCutter);
+  append_sweep(cutter, path, Role::Cut);
+  append_sweep(forms_->shank(), path, Role::Shank);
+  append_sweep(forms_->shank_with_wall(), path, Role::ShankWall);
+  append_sweep(forms_->holder(), path, Role::Holder);
+  append_sweep(forms_->holder_with_clearance(), path, Role::HolderNear);
+  append_sweep(forms_->nose(), path, Role::Nose);
+  append_sweep(forms_->nose_with_clearance(), path, Role::NoseNear);
 }
 
 /// A cut that is deeper is too deep, mm.
 double MaterialCheck::depth_limit() const { return forms_->tool().max_depth + rim_of(stock_.spacing()); }
 
-void MaterialCheck::append_sweep(const RevolvedBody* body, const TipPath& piece, Role role, std::size_t stretch) {
+void MaterialCheck::append_sweep(const RevolvedBody* body, const PathOfSweeps& of, Role role) {
   if (!body) return;
-  SweepPath path = placed(piece.path, role);
+  SweepPath path = placed(of.tip, role);
   if (!may_meet(*body, path)) return;
   // With its clearance or its wall, the body that has just been appended.
   const bool is_grown = role == Role::ShankWall || role == Role::HolderNear || role == Role::NoseNear;
-  const bool contains_last = is_grown && !uses_.empty() && uses_.back().stretch == stretch &&
-                             uses_.back().from == piece.from &&
+  const bool contains_last = is_grown && !uses_.empty() && uses_.back().last == of.last &&
+                             uses_.back().from == of.from &&
                              static_cast<int>(uses_.back().role) + 1 == static_cast<int>(role);
   sweeps_.push_back({.body = body,
                      .path = std::move(path),
-                     .tag = static_cast<stock::CutTag>(waiting_[stretch].line),
+                     .tag = static_cast<stock::CutTag>(waiting_[of.last].line),
                      .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Find,
                      .side_rim = std::max(skin_, body->maximum_radius() * kRimShare),
-                     .end_rim = role == Role::Cut ? end_rim(piece, stretch) : 0,
+                     .end_rim = role == Role::Cut ? end_rim(of) : 0,
                      .depth_limit = depth_limit(),
                      .contains_last = contains_last});
-  uses_.push_back({static_cast<std::uint32_t>(stretch), role, piece.from, piece.to});
+  uses_.push_back({static_cast<std::uint32_t>(of.first), static_cast<std::uint32_t>(of.last), role, of.from, of.to});
 }
 
 static bool is_rounded_corner(const kinematics::Path& path) {
@@ -312,9 +356,16 @@ static bool bends(const kinematics::Path& path, double from, double to) {
 
 /// Of a short way in full material only the crescent in front of the body is new: there, half of it counts. But where
 /// the machine turns round a corner, another pass may have gone a little less far.
-double MaterialCheck::end_rim(const TipPath& piece, std::size_t stretch) const {
-  return bends(waiting_[stretch].stretch.path, piece.from, piece.to) ? skin_
-                                                                     : std::min(skin_, length_of(piece.path) / 2);
+double MaterialCheck::end_rim(const PathOfSweeps& path) const {
+  const double half = length_of(path.tip) / 2;
+  if (half >= skin_) return skin_;
+  for (std::size_t i = path.first; i <= path.last; ++i) {
+    const motion::Stretch& stretch = waiting_[i].stretch;
+    const double from = i == path.first ? path.from : stretch.phases[0].from;
+    const double to = i == path.last ? path.to : stretch.parameter_at(stretch.start + stretch.duration);
+    if (bends(stretch.path, from, to)) return skin_;
+  }
+  return half;
 }
 
 /// False only if the body is above the blank all the time, by more than a margin.
@@ -355,7 +406,31 @@ SweepPath MaterialCheck::placed(const SweepPath& tip, Role role) const {
 }
 
 void MaterialCheck::cut_waiting() {
+  append_joined();
   append_rapid();
+  cut_sweeps();
+}
+
+/// Cuts what waits but for the stretches of which a sweep is being joined, so that the sweeps do not depend on when it
+/// is called.
+void MaterialCheck::cut_before_joined() {
+  std::vector<UncutStretch> kept;
+  if (joined_) {
+    const auto first = waiting_.begin() + static_cast<std::ptrdiff_t>(joined_->first);
+    kept.assign(first, waiting_.end());
+    waiting_.erase(first, waiting_.end());
+    joined_->last -= joined_->first;
+    joined_->first = 0;
+  } else {
+    append_rapid();
+  }
+  cut_sweeps();
+  // All of them are of one motion.
+  for (UncutStretch& each : kept) each.frame = 0;
+  waiting_ = std::move(kept);
+}
+
+void MaterialCheck::cut_sweeps() {
   std::vector<bool> has_cut(waiting_.size());
   if (notes_stretches_) by_stretch_.resize(by_stretch_.size() + waiting_.size());
   if (!sweeps_.empty()) {
@@ -363,7 +438,8 @@ void MaterialCheck::cut_waiting() {
     const std::vector<SweepOutcome> outcomes = stock_.apply(sweeps_, workers_);
     for (std::size_t i = 0; i < sweeps_.size(); ++i) {
       if (uses_[i].role == Role::Cut || uses_[i].role == Role::Rest) account(i, outcomes[i]);
-      if (uses_[i].role == Role::Cut && outcomes[i].meets()) has_cut[uses_[i].stretch] = true;
+      if (uses_[i].role == Role::Cut && outcomes[i].meets())
+        std::fill(has_cut.begin() + uses_[i].first, has_cut.begin() + uses_[i].last + 1, true);
       if (outcomes[i].meets()) look_at(i, outcomes[i]);
     }
     note_heights(has_cut);
@@ -427,7 +503,7 @@ static Removed removed_by(const SweepOutcome& outcome, const SweepPath& path, do
 void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
   if (!outcome.meets()) return;
   const SweepUse& use = uses_[sweep];
-  const UncutStretch& stretch = waiting_[use.stretch];
+  const UncutStretch& stretch = waiting_[use.last];
   const Removed removed = use.role == Role::Rest
                               ? Removed{.volume = outcome.volume}
                               : removed_by(outcome, sweeps_[sweep].path, 2 * sweeps_[sweep].body->maximum_radius());
@@ -437,13 +513,12 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
     tool_ = static_cast<std::size_t>(known - by_tool_.begin());
     if (known == by_tool_.end()) by_tool_.push_back({.tool = code_});
   }
-  if (notes_stretches_) by_stretch_[by_stretch_.size() - waiting_.size() + use.stretch].add(removed);
+  if (notes_stretches_) by_stretch_[by_stretch_.size() - waiting_.size() + use.last].add(removed);
   RemovedByTool& tool = by_tool_[*tool_];
   tool.removed.add(removed);
   if (use.role == Role::Rest) return;
-  const motion::Stretch& motion = stretch.stretch;
-  const double end_time = motion.time_at(use.to);
-  tool.seconds += end_time - motion.time_at(use.from);
+  const double end_time = end_of_use(use);
+  tool.seconds += end_time - start_of_use(use);
   if (by_line_.empty() || by_line_.back().line != stretch.line) by_line_.push_back({.line = stretch.line});
   by_line_.back().end_time = end_time;
   by_line_.back().removed.add(removed);
@@ -482,20 +557,22 @@ void MaterialCheck::look_at(std::size_t sweep, const SweepOutcome& outcome) {
 
 void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const SweepOutcome& outcome) {
   const SweepUse& use = uses_[sweep];
-  const UncutStretch& stretch = waiting_[use.stretch];
-  const std::size_t number = cut_ + use.stretch;
+  const UncutStretch& first_stretch = waiting_[use.first];
+  const UncutStretch& stretch = waiting_[use.last];
+  const std::size_t number = cut_ + use.first;
   const bool is_body = key.first == IncidentKind::BodyInMaterial;
   const auto [known, is_new] = open_.try_emplace({key.first, is_body ? ToolPart::Shank : key.second});
   OpenIncident& episode = known->second;
   // A short motion may meet no dexel.
   const double shortest = 2 * stock_.spacing();
-  const bool goes_on = !is_new && (number <= episode.last_stretch + 1 || stretch.way < episode.last_way + shortest);
+  const bool goes_on =
+      !is_new && (number <= episode.last_stretch + 1 || first_stretch.way < episode.last_way + shortest);
   if (!is_new && !goes_on) close(episode);
   if (!goes_on) {
     episode = {.incident = {.kind = key.first,
                             .part = key.second,
                             .line = stretch.line,
-                            .time = stretch.stretch.time_at(use.from),
+                            .time = start_of_use(use),
                             .tool = code_},
                .line_before = stretch.line,
                .begins_in_feed = stretch.is_feed,
@@ -504,18 +581,24 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   }
   Incident& incident = episode.incident;
   // On the way straight up, a body that does not cut is deepest where that begins.
-  const bool is_way_out = goes_on && is_body && stretch.length > 0 && stretch.rise > 0.999 * stretch.length;
+  double length = 0;
+  double rise = 0;
+  for (std::size_t i = use.first; i <= use.last; ++i) {
+    length += waiting_[i].length;
+    rise += waiting_[i].rise;
+  }
+  const bool is_way_out = goes_on && is_body && length > 0 && rise > 0.999 * length;
   if (goes_on && stretch.line != incident.end_line) episode.line_before = incident.end_line;
   const std::size_t line = is_way_out ? episode.line_before : stretch.line;
-  const double time = is_way_out ? stretch.stretch.start : stretch.stretch.time_at(use.from);
+  const double time = is_way_out ? first_stretch.stretch.start : start_of_use(use);
   const auto is_of_part = [&](const FirstSweep& each) { return each.part == key.second; };
   if (number == episode.first_stretch &&
       std::none_of(episode.first_sweeps.begin(), episode.first_sweeps.end(), is_of_part))
     episode.first_sweeps.push_back({.part = key.second, .sweep = sweep});
-  episode.last_stretch = number;
+  episode.last_stretch = cut_ + use.last;
   episode.last_way = stretch.way + stretch.length;
   incident.end_line = stretch.line;
-  incident.end_time = stretch.stretch.time_at(use.to);
+  incident.end_time = end_of_use(use);
   // Dexels do not measure along a tool that lies: there, how far it goes does. It counts for bodies that do not cut as
   // well: a motion meets what it passes alone, and a plunge in two motions is as deep as one.
   const SweepPath& path = sweeps_[sweep].path;
@@ -611,7 +694,7 @@ void MaterialCheck::look_closely(Stock before) {
   };
   // What the line itself has cut before it was found to touch anything, at most a skin, has not shaped it.
   const auto first_of_line = [&](std::size_t sweep) {
-    const auto line = [&](std::size_t each) { return waiting_[uses_[each].stretch].line; };
+    const auto line = [&](std::size_t each) { return waiting_[uses_[each].last].line; };
     while (sweep > 0 && line(sweep - 1) == line(sweep)) --sweep;
     return sweep;
   };
@@ -656,6 +739,20 @@ void MaterialCheck::look_closely(Stock before) {
   closed_.clear();
 }
 
+double MaterialCheck::from_of(const SweepUse& use, std::size_t stretch) const {
+  return stretch == use.first ? use.from : waiting_[stretch].stretch.phases[0].from;
+}
+
+double MaterialCheck::to_of(const SweepUse& use, std::size_t stretch) const {
+  const motion::Stretch& motion = waiting_[stretch].stretch;
+  return stretch == use.last ? use.to : motion.parameter_at(motion.start + motion.duration);
+}
+
+/// When the machine is at the start of a sweep, seconds.
+double MaterialCheck::start_of_use(const SweepUse& use) const { return waiting_[use.first].stretch.time_at(use.from); }
+
+double MaterialCheck::end_of_use(const SweepUse& use) const { return waiting_[use.last].stretch.time_at(use.to); }
+
 /// What a body meets on a path, in a stock as it is.
 static SweepOutcome ask(const Stock& stock, const RevolvedBody& body, const SweepPath& path,
                         SweepPurpose purpose = SweepPurpose::Ask) {
@@ -673,20 +770,32 @@ void MaterialCheck::find_first_touch(OpenIncident& episode, std::size_t sweep, c
   const SweepUse& use = uses_[sweep];
   if (use.role == Role::Cut) return;
   const RevolvedBody& body = *sweeps_[sweep].body;
-  const motion::Stretch& stretch = waiting_[use.stretch].stretch;
-  const auto meets_until = [&](double s) {
-    std::vector<TipPath> pieces;
-    append_tip_paths(machine_.motion.kinematics, stretch.path, use.from, s, forms_->reach(), stock_.spacing() / 40,
-                     pieces);
+  std::vector<TipPath> pieces;
+  const auto append_pieces = [&](const motion::Stretch& stretch, double from, double to) {
+    append_tip_paths(machine_.motion.kinematics, stretch.path, from, to, {.distance = forms_->reach()},
+                     stock_.spacing() * kPathShare, pieces);
+  };
+  const auto meets_pieces = [&] {
     return std::any_of(pieces.begin(), pieces.end(), [&](const TipPath& piece) {
       return meets(before, body, placed(moved(piece.path, -workpiece_.origin), use.role));
     });
   };
-  double free = use.from;
-  double touching = use.to;
+  // The first stretch that meets anything; one piece for all of them may do so where none of them does.
+  std::size_t met = use.first;
+  for (; met < use.last; ++met) {
+    pieces.clear();
+    append_pieces(waiting_[met].stretch, from_of(use, met), to_of(use, met));
+    if (meets_pieces()) break;
+  }
+  const motion::Stretch& stretch = waiting_[met].stretch;
+  double free = from_of(use, met);
+  double touching = to_of(use, met);
+  const double begin = free;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (free + touching) / 2;
-    (meets_until(middle) ? touching : free) = middle;
+    pieces.clear();
+    append_pieces(stretch, begin, middle);
+    (meets_pieces() ? touching : free) = middle;
   }
   const double time = stretch.time_at(touching);
   episode.first_touch = std::min(time, episode.first_touch.value_or(time));
@@ -796,7 +905,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   const double aside = stock_.spacing() / 2 * (1 - std::abs(up.z()));
   const double skin = forms_->skin(incident.part);
   if (is_lying(up) || is_lying(axis_of(path))) incident.amount = *rise + skin + aside;
-  if (!episode.begins_in_feed && !does_height_help(waiting_[use.stretch])) return;
+  if (!episode.begins_in_feed && !does_height_help(waiting_[use.last])) return;
   incident.enough = std::ceil((incident.level + *rise + skin + aside - 0.01) * 10) / 10 + 0.0;  // No -0.
 }
 

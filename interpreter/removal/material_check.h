@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/removal/incident.h"
+#include "interpreter/removal/joined_path.h"
 #include "interpreter/removal/kept_repeats.h"
 #include "interpreter/removal/tip_paths.h"
 #include "interpreter/removal/tool_forms.h"
@@ -116,9 +117,29 @@ class MaterialCheck {
 
   /// A sweep's purpose, beside the sweep.
   struct SweepUse {
-    std::uint32_t stretch = 0;  ///< Index among those that wait.
+    std::uint32_t first = 0;  ///< Indexes among the stretches that wait; mostly one.
+    std::uint32_t last = 0;
     Role role = Role::Cut;
-    double from = 0;  ///< Path parameters.
+    double from = 0;  ///< Path parameter of the first.
+    double to = 0;    ///< Path parameter of the last.
+  };
+
+  /// What sweeps are made of, of the bodies of the tool: the tip's path, workpiece frame, and what SweepUse has of it.
+  struct PathOfSweeps {
+    stock::SweepPath tip;
+    std::size_t first = 0;
+    double from = 0;
+    std::size_t last = 0;
+    double to = 0;
+  };
+
+  /// The pieces of a motion's path that wait for the next one.
+  struct JoinedPieces {
+    JoinedPath path;
+    std::uint64_t tag = 0;  ///< Of the motion.
+    std::size_t first = 0;
+    double from = 0;
+    std::size_t last = 0;
     double to = 0;
   };
 
@@ -162,19 +183,27 @@ class MaterialCheck {
   void form(const CuttingTool& tool);
   void stand(const running::Event& event, double time, const geometry::Frame& frame);
   void append_pieces(bool is_feed);
+  void join(const TipPath& piece, std::size_t stretch);
+  void append_joined();
   void append_rapid();
   double depth_limit() const;
-  double end_rim(const TipPath& piece, std::size_t stretch) const;
+  double end_rim(const PathOfSweeps& path) const;
   void show_moments(const motion::Stretch& stretch);
   Cutting cutting_of(bool is_feed) const;
   const solids::RevolvedBody* removing_cutter(Cutting cutting) const;
   void append_rest();
   void change_cutting(Cutting cutting);
-  void append_sweeps(const TipPath& piece, Cutting cutting, std::size_t stretch);
-  void append_sweep(const solids::RevolvedBody* body, const TipPath& piece, Role role, std::size_t stretch);
+  void append_sweeps(const PathOfSweeps& path, Cutting cutting);
+  void append_sweep(const solids::RevolvedBody* body, const PathOfSweeps& of, Role role);
   bool may_meet(const solids::RevolvedBody& body, const stock::SweepPath& path, double margin = 0) const;
   void divide(const motion::Stretch& stretch, double begin, double end);
   void cut_waiting();
+  void cut_before_joined();
+  void cut_sweeps();
+  double from_of(const SweepUse& use, std::size_t stretch) const;
+  double to_of(const SweepUse& use, std::size_t stretch) const;
+  double start_of_use(const SweepUse& use) const;
+  double end_of_use(const SweepUse& use) const;
   void account(std::size_t sweep, const stock::SweepOutcome& outcome);
   void look_at(std::size_t sweep, const stock::SweepOutcome& outcome);
   void touch(const IncidentKey& key, std::size_t sweep, const stock::SweepOutcome& outcome);
@@ -223,6 +252,7 @@ class MaterialCheck {
   Cutting cutting_ = Cutting::Allowed;                  ///< On the last motion.
   std::vector<PassedPath> passed_;                      ///< Since it has been allowed, or not for this reason.
   std::vector<TipPath> pieces_;                         ///< Kept, so that its memory is.
+  std::optional<JoinedPieces> joined_;                  ///< Of the present motion.
   std::vector<std::pair<TipPath, std::size_t>> rapid_;  ///< Of the present rapid in phases, each with its stretch.
   double way_taken_ = 0;                                ///< Of the tip, mm.
   std::size_t cut_ = 0;                                 ///< Stretches that have been cut.

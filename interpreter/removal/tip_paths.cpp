@@ -72,21 +72,43 @@ class TipCourse {
             .sine = std::sin(sweep)};
   }
 
-  /// How many equal parts keep all points up to `reach` above the tip within `tolerance` of their paths. A chord strays
-  /// by at most an eighth of the second derivative times the square of its length.
-  double parts(double reach, double tolerance) const {
+  /// As many equal parts as keep all points within reach within `tolerance` of their paths, and by how much each of
+  /// them strays. A chord strays by at most an eighth of the second derivative times the square of its length.
+  std::pair<double, TipPath> division(const ToolReach& reach, double tolerance) const {
     const double length = to_ - from_;
     const CourseBounds bounds = this->bounds();
-    const double bend =
-        bounds.tip_bend + reach * (2 * bounds.turn_speed * bounds.turn_speed + bounds.turn_acceleration);
-    const double parts = std::max(length * std::sqrt(bend / (8 * tolerance)), length * bounds.turn_speed / kMaxTurn);
-    return std::clamp(std::ceil(parts), 1.0, kMaxPieces);
+    const double bend_of_axis = 2 * bounds.turn_speed * bounds.turn_speed + bounds.turn_acceleration;
+    const double square = length * length / 8;
+    TipPath piece{.reach = reach_of(reach, bounds.tip_bend * square, bend_of_axis * square)};
+    const double bend = bounds.tip_bend + piece.reach * bend_of_axis;
+    const double least = std::max(std::sqrt(bend * square / tolerance), length * bounds.turn_speed / kMaxTurn);
+    const double parts = std::clamp(std::ceil(least), 1.0, kMaxPieces);
+    const double share = square / (parts * parts);
+    piece.stray = bounds.tip_bend * share;
+    piece.stray_in_height = bounds.rise_bend * share;
+    piece.stray_of_axis = bend_of_axis * share;
+    return {parts, piece};
   }
 
  private:
+  /// How far from the tip the points are that matter anywhere on the path, which strays from its chord by at most so
+  /// much.
+  double reach_of(const ToolReach& all, double stray, double stray_of_axis) const {
+    const AxisPlacement begin = at(from_);
+    const AxisPlacement end = at(to_);
+    const double up = std::min(begin.axis.z(), end.axis.z()) - stray_of_axis;
+    constexpr double kSteep = 0.1;
+    if (up < kSteep || !std::isfinite(all.top)) return all.distance;
+    const double lowest = std::min(begin.origin.z(), end.origin.z()) - stray;
+    const double highest = std::max(0.0, (all.top + all.radius - lowest) / up);
+    constexpr double kLeast = 1;  // mm
+    return std::min(all.distance, std::max(kLeast, std::hypot(highest, all.radius)));
+  }
+
   /// How fast the tip bends, mm, and the axis turns, radians; by s.
   struct CourseBounds {
     double tip_bend = 0;
+    double rise_bend = 0;  ///< The part of it along Z.
     double turn_speed = 0;
     double turn_acceleration = 0;
   };
@@ -99,6 +121,7 @@ class TipCourse {
     for (const double s : {from_, (from_ + to_) / 2, to_}) {
       const kinematics::Jet at = path_.at(s);
       all.tip_bend = std::max(all.tip_bend, at.second.head<3>().norm());
+      all.rise_bend = std::max(all.rise_bend, std::abs(at.second.z()));
       speed = std::max(speed, at.first.head<3>().norm());
       if (!turns_) continue;
       all.turn_speed = std::max(all.turn_speed, rotary(at.first));
@@ -106,6 +129,8 @@ class TipCourse {
     }
     const double half = (to_ - from_) / 2;
     all.turn_speed += all.turn_acceleration * half;
+    // The height of a point of a circle does not bend alike everywhere.
+    if (path_.kind != PathKind::Polynomial || path_.is_of_joints) all.rise_bend = all.tip_bend;
     if (!path_.is_of_joints || !turns_) return all;
     speed += all.tip_bend * half;
     // What turns is as long as from the tip to the rotary axes: those of the head, or those of the table.
@@ -114,6 +139,7 @@ class TipCourse {
     const double table = kinematics_.kind == MachineKind::Table ? speed * half : 0;
     all.tip_bend = all.tip_bend + 2 * all.turn_speed * speed +
                    (arm + table) * (all.turn_speed * all.turn_speed + all.turn_acceleration);
+    all.rise_bend = all.tip_bend;
     return all;
   }
   static double rotary(const kinematics::Coordinates& c) {
@@ -129,7 +155,7 @@ class TipCourse {
 
 }  // namespace
 
-void append_tip_paths(const Kinematics& kinematics, const Path& path, double from, double to, double reach,
+void append_tip_paths(const Kinematics& kinematics, const Path& path, double from, double to, const ToolReach& reach,
                       double tolerance, std::vector<TipPath>& pieces) {
   if (!(from < to)) return;
   const TipCourse course(kinematics, path, from, to);
@@ -139,21 +165,25 @@ void append_tip_paths(const Kinematics& kinematics, const Path& path, double fro
   }
   const bool is_helix = course.is_helix();
   // Half a turn at most.
-  const double parts =
-      is_helix ? std::ceil(std::abs(path.omega) * (to - from) / std::numbers::pi) : course.parts(reach, tolerance);
+  const double half_turns = std::ceil(std::abs(path.omega) * (to - from) / std::numbers::pi);
+  const auto [parts, kind] =
+      is_helix ? std::pair(half_turns, TipPath{.reach = reach.distance}) : course.division(reach, tolerance);
   AxisPlacement last = course.at(from);
   for (double i = 0; i < parts; ++i) {
     const double begin = from + i * (to - from) / parts;
     const double end = from + (i + 1) * (to - from) / parts;
+    TipPath& piece = pieces.emplace_back(kind);
+    piece.from = begin;
+    piece.to = end;
     if (is_helix) {
-      pieces.push_back({stock::HelixPath{course.helix(begin, end), last.axis}, begin, end});
+      piece.path = stock::HelixPath{course.helix(begin, end), last.axis};
       continue;
     }
     const AxisPlacement next = course.at(end);
     if (course.turns()) {
-      pieces.push_back({stock::TurningPath{last, next}, begin, end});
+      piece.path = stock::TurningPath{last, next};
     } else {
-      pieces.push_back({stock::StraightPath{last, next.origin}, begin, end});
+      piece.path = stock::StraightPath{last, next.origin};
     }
     last = next;
   }

@@ -12,6 +12,7 @@
 
 #include "interpreter/stock/stock_file.h"
 #include "interpreter/verification/verification_report.h"
+#include "interpreter/verification/verifier.h"
 #include "tests/support/random.h"
 #include "tests/support/threads.h"
 #include "tests/verification/scenes.h"
@@ -563,6 +564,56 @@ TEST(Material, ThreadsChangeNothing) {
   EXPECT_GT(alone.size(), 1000u);
   EXPECT_TRUE(all_of(support::on_threads(2)) == alone);
   EXPECT_TRUE(all_of(support::on_threads(3)) == alone);
+}
+
+/// What a run with a head finds and leaves, while somebody looks at the stock at moments, also within motions.
+std::vector<std::string> told_while_watched(const std::string& program, double interval) {
+  Bench bench(MachineKind::Head);
+  running::RunOptions options;
+  options.setup.home = bench.machine.home;
+  Verifier verifier(bench.scene, bench.machine, geometry::Vec3::Zero());
+  int looks = 0;
+  if (interval > 0)
+    verifier.material()->watch([&](const stock::Stock&, double time) {
+      ++looks;
+      return time + interval;
+    });
+  simulation::Timing timing(bench.machine,
+                            {.event = [&](const simulation::TimedEvent& timed) { verifier.take(timed); },
+                             .stretch = [&](const motion::Stretch& stretch,
+                                            const simulation::TimedEvent& timed) { verifier.take(stretch, timed); }});
+  running::run(program, options, [&](const running::Event& event) { timing.take(event); });
+  timing.finish();
+  verifier.finish();
+  EXPECT_EQ(looks > 100, interval > 0);
+  std::vector<std::string> all;
+  for (const Contact& each : verifier.contacts())
+    all.push_back(fmt::format("{} {} {} {}", dialect::definition(each.id).code, each.line, each.distance, each.time));
+  for (const simulation::RemovedOnLine& each : verifier.material()->removed_by_line())
+    all.push_back(fmt::format("{} {} {}", each.line, each.volume, each.depth));
+  all.push_back(stock::write_stock(verifier.material()->stock()));
+  return all;
+}
+
+/// Pieces of a motion are cut at once, whoever looks meanwhile.
+TEST(Material, WhoLooksMeanwhileChangesNothing) {
+  support::Random random(7);
+  std::string program = "M06 T101001\nS12000 M03\nG49\nG00 X300 Y150 Z50 B10 C0\nG01 Z38 F2000\n";
+  double heading = 0;
+  double x = 300;
+  double y = 150;
+  for (int i = 0; i < 600; ++i) {
+    heading += random.real(-0.1, 0.15);
+    x += std::cos(heading);
+    y += std::sin(heading);
+    program += fmt::format("{} X{:.3f} Y{:.3f} Z{:.3f} B{:.3f}\n", i % 100 == 99 ? "G00" : "G01", x, y,
+                           38 + random.real(-0.05, 0.05), 10 + random.real(-0.1, 0.1));
+  }
+  program += "M02\n";
+  const std::vector<std::string> alone = told_while_watched(program, 0);
+  EXPECT_GT(alone.size(), 300u);
+  EXPECT_TRUE(told_while_watched(program, 0.05) == alone);
+  EXPECT_TRUE(told_while_watched(program, 0.003) == alone);
 }
 
 TEST(Material, TiltedToolsCutTheVolumeOfTheirClosedForm) {
