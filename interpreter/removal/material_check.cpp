@@ -18,30 +18,16 @@ using stock::Sweep;
 using stock::SweepOutcome;
 using stock::SweepPath;
 using stock::SweepPurpose;
+using Role = SweepRole;
 
 /// Stretches that wait at most.
 static constexpr std::size_t kBatch = 4096;
-/// Incidents that are kept.
-/// Ways on which nothing may be cut, of which the rest is removed later, at most.
-static constexpr std::size_t kMostPassed = 256;
-/// What is cut of a wall counts as a pass of its depth if it is wider than this part of the cutter's radius: what a
-/// finishing pass takes off a stepped wall does not.
-static constexpr double kRimShare = 0.1;
 /// How exactly the first touch is told, as a part of its sweep.
 static constexpr int kHalvings = 16;
-/// Motions are cut to this part of the spacing: as pieces of curved paths, and where one piece stands for several.
-static constexpr double kPathShare = 1.0 / 40;
-/// The same along a dexel while the axis rests, mm.
-static constexpr double kHeightTolerance = 0.001;
-
 /// Seconds between the moments at which a watcher is asked first.
 static constexpr double kShortestMoment = 0.05;
 /// Where nothing is cut, that many of these are left out at once.
 static constexpr double kMaxMomentsApart = 10;
-
-/// What a cut may leave standing beside its body, mm: an eighth of the spacing by the pieces of paths and of motions
-/// that turn the axis, and a little for rounding.
-static double rim_of(double spacing) { return spacing / 8 + 0.002; }
 
 /// What a cut may leave of what its program says, mm: at a rounded corner as much more as the corner strays, be it at
 /// the end of a slot or at the bottom of a hole. Later motions come as near as the program says.
@@ -89,13 +75,14 @@ void MaterialCheck::stand(const running::Event& event, double time, const geomet
   rest.path.is_of_joints = true;
   rest.path.c[0] = joints;
   rest.path.tool_length = length;
-  const solids::AxisPlacement at = placement_of(kinematics, kinematics::forward(kinematics, joints, length));
   last_frame_ = frame;
   frames_ = {frame};  // Nothing waits.
-  waiting_.push_back(
-      {.stretch = rest, .line = event.line, .frame = 0, .is_in_inches = event.is_in_inches, .is_standing = true});
-  pieces_ = {{stock::StraightPath{at, at.origin}, 0, 0}};
-  append_pieces(false);
+  waiting_.push_back({.stretch = rest,
+                      .cutting = Cutting::InRapid,
+                      .line = event.line,
+                      .frame = 0,
+                      .is_in_inches = event.is_in_inches,
+                      .is_standing = true});
 }
 
 void MaterialCheck::take(const simulation::TimedEvent& event) {
@@ -128,137 +115,50 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::
   last_frame_ = frame;
   if (frames_.empty() || !(frames_.back() == frame)) frames_.push_back(frame);
   waiting_.push_back({.stretch = stretch,
+                      .from = from,
+                      .to = to,
+                      .cutting = cutting_of(is_feed),
                       .line = event.event.line,
                       .frame = frames_.size() - 1,
                       .is_in_inches = event.event.is_in_inches,
                       .is_feed = is_feed});
-  divide(stretch, from, to);
-  if (watcher_) show_moments(stretch);
-  append_pieces(is_feed);
+  if (watcher_) show_moments();
   if (waiting_.size() >= kBatch) cut_before_joined();
 }
 
-/// Adds the sweeps along the pieces to what waits, as those of its last stretch.
-void MaterialCheck::append_pieces(bool is_feed) {
-  if (is_feed) append_rapid();
-  if (pieces_.empty()) return;
-  UncutStretch& stretch = waiting_.back();
-  const Vec3 up = frames_[stretch.frame].axes.col(2);
-  stretch.rise = up.dot(end_of(pieces_.back().path) - start_of(pieces_.front().path).origin);
-  stretch.way = way_taken_;
-  const bool is_in_phases = !is_feed && asks_;
-  const Cutting cutting = cutting_of(is_feed);
-  if (joined_ && stretch.stretch.tag != joined_->tag) append_joined();
-  for (TipPath& piece : pieces_) {
-    stretch.length += length_of(piece.path);
-    piece.path = moved(std::move(piece.path), -workpiece_.origin);
-    const std::size_t index = waiting_.size() - 1;
-    if (is_in_phases)
-      rapid_.emplace_back(piece, index);
-    else if (is_feed && cutting == Cutting::Allowed)
-      join(piece, index);
-    else
-      append_sweeps({piece.path, index, piece.from, index, piece.to}, cutting);
-  }
-  way_taken_ += stretch.length;
-  if (!(stretch.stretch.ends_move || stretch.is_standing)) return;
-  append_joined();
-  append_rapid();
-}
-
-/// Adds a piece of a feed motion to those before it, of which one sweep is made.
-void MaterialCheck::join(const TipPath& piece, std::size_t stretch) {
-  const JoinedPath::Tolerance tolerance{.aside = stock_.spacing() * kPathShare, .in_height = kHeightTolerance};
-  if (joined_ && joined_->path.add(piece, tolerance)) {
-    joined_->last = stretch;
-    joined_->to = piece.to;
-    return;
-  }
-  append_joined();
-  joined_ = {.path = JoinedPath(piece),
-             .tag = waiting_[stretch].stretch.tag,
-             .first = stretch,
-             .from = piece.from,
-             .last = stretch,
-             .to = piece.to};
-}
-
-void MaterialCheck::append_joined() {
-  if (!joined_) return;
-  const PathOfSweeps path{joined_->path.path(), joined_->first, joined_->from, joined_->last, joined_->to};
-  joined_.reset();
-  append_sweeps(path, Cutting::Allowed);
-}
-
-/// Adds the sweeps of a rapid, which has phases of acceleration and jerk. How deep the cutter goes counts from the
-/// material before all of it: else each phase would meet what the one before has left.
-void MaterialCheck::append_rapid() {
-  if (rapid_.empty()) return;
-  change_cutting(Cutting::InRapid);
-  const auto path_of = [](const std::pair<TipPath, std::size_t>& each) {
-    const auto& [piece, stretch] = each;
-    return PathOfSweeps{piece.path, stretch, piece.from, stretch, piece.to};
-  };
-  for (const auto& each : rapid_) append_sweep(forms_->passing_cutter(), path_of(each), Role::RapidCutter);
-  for (const auto& each : rapid_) append_sweeps(path_of(each), Cutting::InRapid);
-  rapid_.clear();
-}
-
-/// Sets the pieces of a stretch between two path parameters. A long tool needs many of them while its axis turns, but
-/// where only the cutter may come near the blank, those that it needs are enough.
-void MaterialCheck::divide(const motion::Stretch& stretch, double begin, double end) {
-  const double tolerance = stock_.spacing() * kPathShare;
-  const double reach = forms_->reach();
-  const double cutter_reach = forms_->cutter_reach();
-  const auto append = [&](const ToolReach& of) {
-    pieces_.clear();
-    append_tip_paths(machine_.motion.kinematics, stretch.path, begin, end, of, tolerance, pieces_);
-  };
-  if (!(cutter_reach > 0)) return append({.distance = reach});
-  append({.distance = cutter_reach,
-          .top = stock_.bounds().max().z() + workpiece_.origin.z(),
-          .radius = forms_->cutter()->maximum_radius()});
-  if (!(cutter_reach < reach)) return;
-  if (pieces_.empty() || !std::holds_alternative<stock::TurningPath>(pieces_.front().path)) return;
-  // How far a point of the tool may be from where these pieces have it: within the tolerance at both ends of what
-  // matters of the cutter, and beyond as on a line through them. Where one piece stands for several, it is off as much
-  // again.
-  const double error = 4 * tolerance * reach / pieces_.front().reach;
-  const bool is_cutter_alone = std::none_of(pieces_.begin(), pieces_.end(), [&](const TipPath& piece) {
-    const SweepPath tip = moved(piece.path, -workpiece_.origin);
-    const auto is_near = [&](const RevolvedBody* body, Role role) {
-      return body && may_meet(*body, placed(tip, role), error);
-    };
-    return is_near(forms_->shank(), Role::Shank) || is_near(forms_->shank_with_wall(), Role::ShankWall) ||
-           is_near(forms_->holder(), Role::Holder) || is_near(forms_->holder_with_clearance(), Role::HolderNear) ||
-           is_near(forms_->nose(), Role::Nose) || is_near(forms_->nose_with_clearance(), Role::NoseNear);
-  });
-  if (!is_cutter_alone) append({.distance = reach});
+SweepSetting MaterialCheck::setting() const {
+  return {.forms = *forms_,
+          .kinematics = machine_.motion.kinematics,
+          .origin = workpiece_.origin,
+          .spacing = stock_.spacing(),
+          .top = stock_.bounds().max().z(),
+          .skin = skin_,
+          .asks = asks_};
 }
 
 /// Shows the moments before the last stretch that waits, and those within it. What is cut up to a moment within it is
 /// cut from a copy, so that the stock itself does not depend on when somebody looks.
-void MaterialCheck::show_moments(const motion::Stretch& stretch) {
+void MaterialCheck::show_moments() {
+  const UncutStretch last = waiting_.back();
+  const motion::Stretch& stretch = last.stretch;
   const double end = stretch.start + stretch.duration;
   if (next_moment_ > end) return;
-  const UncutStretch last = std::move(waiting_.back());
   waiting_.pop_back();
-  const std::vector<TipPath> pieces = pieces_;
   cut_before_joined();
+  std::vector<TipPath> pieces;
   for (; next_moment_ <= end; has_cuts_to_show_ = false) {
     const double moment = next_moment_;
     Stock partial = stock_;
     bool is_cut = has_cuts_to_show_;
     if (moment > stretch.start && forms_->cutter()) {
       const auto cut = [&](const SweepPath& path) {
-        const Sweep sweep{.body = removing_cutter(cutting_of(last.is_feed)),
-                          .path = path,
-                          .tag = static_cast<stock::CutTag>(last.line)};
-        if (may_meet(*sweep.body, sweep.path)) is_cut = partial.apply({&sweep, 1}).front().meets() || is_cut;
+        const Sweep sweep{
+            .body = removing_cutter(*forms_, last.cutting), .path = path, .tag = static_cast<stock::CutTag>(last.line)};
+        if (may_meet(setting(), *sweep.body, sweep.path)) is_cut = partial.apply({&sweep, 1}).front().meets() || is_cut;
       };
-      if (joined_) cut(joined_->path.path());
-      divide(stretch, stretch.phases[0].from, stretch.parameter_at(moment));
-      for (const TipPath& piece : pieces_) cut(moved(piece.path, -workpiece_.origin));
+      if (const auto open = sweeps_.open_path()) cut(open->second);
+      divide(setting(), last, stretch.parameter_at(moment), pieces);
+      for (const TipPath& piece : pieces) cut(piece.path);
     }
     if (is_cut) {
       next_moment_ = std::max(watcher_(partial, moment), std::nextafter(moment, HUGE_VAL));
@@ -270,118 +170,12 @@ void MaterialCheck::show_moments(const motion::Stretch& stretch) {
   waiting_.push_back(last);
   if (frames_.empty()) frames_.push_back(last_frame_);
   waiting_.back().frame = frames_.size() - 1;
-  pieces_ = pieces;
 }
 
 /// Whether the cutter may cut on a motion.
-MaterialCheck::Cutting MaterialCheck::cutting_of(bool is_feed) const {
+Cutting MaterialCheck::cutting_of(bool is_feed) const {
   if (!is_feed) return Cutting::InRapid;
   return spindle_.function == 5 ? Cutting::Standing : Cutting::Allowed;
-}
-
-/// What removes material. Where the cutter must not cut, no more than is asked for: else it would clear its own way,
-/// and of many short motions through material none would meet any.
-const RevolvedBody* MaterialCheck::removing_cutter(Cutting cutting) const {
-  const bool is_thinner = cutting != Cutting::Allowed && forms_->passing_cutter();
-  return is_thinner ? forms_->passing_cutter() : forms_->cutter();
-}
-
-/// Removes the rest of what the cutter has gone through on the motions before, once they are over.
-void MaterialCheck::append_rest() {
-  for (PassedPath& each : passed_) {
-    sweeps_.push_back({.body = forms_->cutter(), .path = std::move(each.path), .tag = each.tag});
-    const auto last = static_cast<std::uint32_t>(waiting_.size() - 1);
-    uses_.push_back({last, last, Role::Rest, 0, 0});
-  }
-  passed_.clear();
-}
-
-void MaterialCheck::change_cutting(Cutting cutting) {
-  if (cutting != cutting_ || passed_.size() >= kMostPassed) append_rest();
-  cutting_ = cutting;
-}
-
-void MaterialCheck::append_sweeps(const PathOfSweeps& path, Cutting cutting) {
-  change_cutting(cutting);
-  const RevolvedBody* const cutter = removing_cutter(cutting);
-  if (cutter && cutter != forms_->cutter() && may_meet(*cutter, path.tip))
-    passed_.push_back({path.tip, static_cast<stock::CutTag>(waiting_[path.last].line)});
-  if (!asks_) return append_sweep(cutter, path, Role::Cut);
-  // append_rapid() asks for all of its pieces first.
-  if (cutting == Cutting::InRapid && rapid_.empty()) append_sweep(forms_->passing_cutter(), path, Role::RapidCutter);
-  if (cutting == Cutting::Standing) append_sweep(forms_->passing_cutter(), path, Role::StandingCutter);
-  append_sweep(cutter, path, Role::Cut);
-  append_sweep(forms_->shank(), path, Role::Shank);
-  append_sweep(forms_->shank_with_wall(), path, Role::ShankWall);
-  append_sweep(forms_->holder(), path, Role::Holder);
-  append_sweep(forms_->holder_with_clearance(), path, Role::HolderNear);
-  append_sweep(forms_->nose(), path, Role::Nose);
-  append_sweep(forms_->nose_with_clearance(), path, Role::NoseNear);
-}
-
-/// A cut that is deeper is too deep, mm.
-double MaterialCheck::depth_limit() const { return forms_->tool().max_depth + rim_of(stock_.spacing()); }
-
-void MaterialCheck::append_sweep(const RevolvedBody* body, const PathOfSweeps& of, Role role) {
-  if (!body) return;
-  SweepPath path = placed(of.tip, role);
-  if (!may_meet(*body, path)) return;
-  // With its clearance or its wall, the body that has just been appended.
-  const bool is_grown = role == Role::ShankWall || role == Role::HolderNear || role == Role::NoseNear;
-  const bool contains_last = is_grown && !uses_.empty() && uses_.back().last == of.last &&
-                             uses_.back().from == of.from &&
-                             static_cast<int>(uses_.back().role) + 1 == static_cast<int>(role);
-  sweeps_.push_back({.body = body,
-                     .path = std::move(path),
-                     .tag = static_cast<stock::CutTag>(waiting_[of.last].line),
-                     .purpose = role == Role::Cut ? SweepPurpose::Cut : SweepPurpose::Find,
-                     .side_rim = std::max(skin_, body->maximum_radius() * kRimShare),
-                     .end_rim = role == Role::Cut ? end_rim(of) : 0,
-                     .depth_limit = depth_limit(),
-                     .contains_last = contains_last});
-  uses_.push_back({static_cast<std::uint32_t>(of.first), static_cast<std::uint32_t>(of.last), role, of.from, of.to});
-}
-
-static bool is_rounded_corner(const kinematics::Path& path) {
-  return path.kind == kinematics::PathKind::Polynomial && !(path.c[2].isZero(0) && path.c[3].isZero(0));
-}
-
-/// Whether a path bends by more than 10 degrees between two path parameters.
-static bool bends(const kinematics::Path& path, double from, double to) {
-  if (path.kind == kinematics::PathKind::Polynomial && !is_rounded_corner(path)) return false;
-  const Vec3 before = path.at(from).first.head<3>();
-  const Vec3 after = path.at(to).first.head<3>();
-  return before.dot(after) < 0.985 * before.norm() * after.norm();
-}
-
-/// Of a short way in full material only the crescent in front of the body is new: there, half of it counts. But where
-/// the machine turns round a corner, another pass may have gone a little less far.
-double MaterialCheck::end_rim(const PathOfSweeps& path) const {
-  const double half = length_of(path.tip) / 2;
-  if (half >= skin_) return skin_;
-  for (std::size_t i = path.first; i <= path.last; ++i) {
-    const motion::Stretch& stretch = waiting_[i].stretch;
-    const double from = i == path.first ? path.from : stretch.phases[0].from;
-    const double to = i == path.last ? path.to : stretch.parameter_at(stretch.start + stretch.duration);
-    if (bends(stretch.path, from, to)) return skin_;
-  }
-  return half;
-}
-
-/// False only if the body is above the blank all the time, by more than a margin.
-bool MaterialCheck::may_meet(const RevolvedBody& body, const SweepPath& path, double margin) const {
-  const double top = stock_.bounds().max().z() + margin;
-  const Vec3 up(0, 0, 1);
-  if (const auto* const turning = std::get_if<stock::TurningPath>(&path)) {
-    const auto middle = [&](const solids::AxisPlacement& at) { return (at.origin + body.middle() * at.axis).z(); };
-    // While the axis turns, the middle of the body leaves its chord.
-    const double bulge = std::abs(body.middle()) * (1 - turning->from.axis.dot(turning->to.axis));
-    return std::min(middle(turning->from), middle(turning->to)) - bulge - body.sphere_radius() < top;
-  }
-  const Vec3 axis = axis_of(path);
-  const double lowest = lowest_along(path, up);
-  if (axis.z() == 1) return lowest + body.bottom() < top;
-  return lowest + body.middle() * axis.z() - body.sphere_radius() < top;
 }
 
 const RevolvedBody* MaterialCheck::whole_body(ToolPart part) const {
@@ -399,47 +193,51 @@ const RevolvedBody* MaterialCheck::whole_body(ToolPart part) const {
   return tool.nose;
 }
 
-/// The path of a body in a role whose tip goes along a path.
-SweepPath MaterialCheck::placed(const SweepPath& tip, Role role) const {
-  const bool is_nose = role == Role::Nose || role == Role::NoseNear;
-  return is_nose ? shifted_along_axis(tip, forms_->tool().length) : tip;
+/// Makes the sweeps of what waits.
+void MaterialCheck::append_sweeps() {
+  if (!forms_) return;
+  sweeps_.append(setting(), waiting_, with_sweeps_, workers_);
+  for (; with_sweeps_ < waiting_.size(); ++with_sweeps_) {
+    UncutStretch& each = waiting_[with_sweeps_];
+    each.rise = frames_[each.frame].axes.col(2).dot(each.travel);
+    each.way = way_taken_;
+    way_taken_ += each.length;
+  }
 }
 
 void MaterialCheck::cut_waiting() {
-  append_joined();
-  append_rapid();
+  append_sweeps();
+  if (forms_) sweeps_.append_rest_of_motion(setting(), waiting_);
   cut_sweeps();
 }
 
 /// Cuts what waits but for the stretches of which a sweep is being joined, so that the sweeps do not depend on when it
 /// is called.
 void MaterialCheck::cut_before_joined() {
-  std::vector<UncutStretch> kept;
-  if (joined_) {
-    const auto first = waiting_.begin() + static_cast<std::ptrdiff_t>(joined_->first);
-    kept.assign(first, waiting_.end());
-    waiting_.erase(first, waiting_.end());
-    joined_->last -= joined_->first;
-    joined_->first = 0;
-  } else {
-    append_rapid();
-  }
+  append_sweeps();
+  const auto open = sweeps_.open_path();
+  if (!open && forms_) sweeps_.append_rapid(setting(), waiting_);
+  const auto first = waiting_.begin() + static_cast<std::ptrdiff_t>(open ? open->first : waiting_.size());
+  std::vector<UncutStretch> kept(first, waiting_.end());
+  waiting_.erase(first, waiting_.end());
   cut_sweeps();
   // All of them are of one motion.
   for (UncutStretch& each : kept) each.frame = 0;
   waiting_ = std::move(kept);
+  with_sweeps_ = waiting_.size();
 }
 
 void MaterialCheck::cut_sweeps() {
   std::vector<bool> has_cut(waiting_.size());
   if (notes_stretches_) by_stretch_.resize(by_stretch_.size() + waiting_.size());
-  if (!sweeps_.empty()) {
+  if (!sweeps_.sweeps().empty()) {
     const Stock before = stock_;
-    const std::vector<SweepOutcome> outcomes = stock_.apply(sweeps_, workers_);
-    for (std::size_t i = 0; i < sweeps_.size(); ++i) {
-      if (uses_[i].role == Role::Cut || uses_[i].role == Role::Rest) account(i, outcomes[i]);
-      if (uses_[i].role == Role::Cut && outcomes[i].meets())
-        std::fill(has_cut.begin() + uses_[i].first, has_cut.begin() + uses_[i].last + 1, true);
+    const std::vector<SweepOutcome> outcomes = stock_.apply(sweeps_.sweeps(), workers_);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      const SweepUse& use = sweeps_.uses()[i];
+      if (use.role == Role::Cut || use.role == Role::Rest) account(i, outcomes[i]);
+      if (use.role == Role::Cut && outcomes[i].meets())
+        std::fill(has_cut.begin() + use.first, has_cut.begin() + use.last + 1, true);
       if (outcomes[i].meets()) look_at(i, outcomes[i]);
     }
     note_heights(has_cut);
@@ -451,8 +249,8 @@ void MaterialCheck::cut_sweeps() {
   note_ways(has_cut);
   cut_ += waiting_.size();
   waiting_.clear();
+  with_sweeps_ = 0;
   sweeps_.clear();
-  uses_.clear();
   if (frames_.size() > 1) frames_.erase(frames_.begin(), frames_.end() - 1);
 }
 
@@ -502,11 +300,11 @@ static Removed removed_by(const SweepOutcome& outcome, const SweepPath& path, do
 /// Notes what a cut has removed.
 void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
   if (!outcome.meets()) return;
-  const SweepUse& use = uses_[sweep];
+  const SweepUse& use = sweeps_.uses()[sweep];
   const UncutStretch& stretch = waiting_[use.last];
-  const Removed removed = use.role == Role::Rest
-                              ? Removed{.volume = outcome.volume}
-                              : removed_by(outcome, sweeps_[sweep].path, 2 * sweeps_[sweep].body->maximum_radius());
+  const Removed removed = use.role == Role::Rest ? Removed{.volume = outcome.volume}
+                                                 : removed_by(outcome, sweeps_.sweeps()[sweep].path,
+                                                              2 * sweeps_.sweeps()[sweep].body->maximum_radius());
   if (!tool_) {
     const auto known =
         std::find_if(by_tool_.begin(), by_tool_.end(), [&](const RemovedByTool& each) { return each.tool == code_; });
@@ -525,9 +323,9 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
 }
 
 void MaterialCheck::look_at(std::size_t sweep, const SweepOutcome& outcome) {
-  switch (uses_[sweep].role) {
+  switch (sweeps_.uses()[sweep].role) {
     case Role::Cut:
-      if (outcome.inside_depth > depth_limit()) {
+      if (outcome.inside_depth > depth_limit(setting())) {
         SweepOutcome inside = outcome;
         inside.depth = outcome.inside_depth;
         inside.point = outcome.inside_point;
@@ -556,7 +354,7 @@ void MaterialCheck::look_at(std::size_t sweep, const SweepOutcome& outcome) {
 }
 
 void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const SweepOutcome& outcome) {
-  const SweepUse& use = uses_[sweep];
+  const SweepUse& use = sweeps_.uses()[sweep];
   const UncutStretch& first_stretch = waiting_[use.first];
   const UncutStretch& stretch = waiting_[use.last];
   const std::size_t number = cut_ + use.first;
@@ -601,7 +399,7 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
   incident.end_time = end_of_use(use);
   // Dexels do not measure along a tool that lies: there, how far it goes does. It counts for bodies that do not cut as
   // well: a motion meets what it passes alone, and a plunge in two motions is as deep as one.
-  const SweepPath& path = sweeps_[sweep].path;
+  const SweepPath& path = sweeps_.sweeps()[sweep].path;
   const Vec3 axis = axis_of(path);
   const bool lies = is_lying(axis);
   const double reach = -lowest_along(path, axis);
@@ -694,7 +492,7 @@ void MaterialCheck::look_closely(Stock before) {
   };
   // What the line itself has cut before it was found to touch anything, at most a skin, has not shaped it.
   const auto first_of_line = [&](std::size_t sweep) {
-    const auto line = [&](std::size_t each) { return waiting_[uses_[each].last].line; };
+    const auto line = [&](std::size_t each) { return waiting_[sweeps_.uses()[each].last].line; };
     while (sweep > 0 && line(sweep - 1) == line(sweep)) --sweep;
     return sweep;
   };
@@ -716,7 +514,7 @@ void MaterialCheck::look_closely(Stock before) {
     if (looked_at_ >= kMaxLookedAt) break;
     cuts.clear();
     for (; done < question.sweep; ++done)
-      if (sweeps_[done].purpose == SweepPurpose::Cut) cuts.push_back(sweeps_[done]);
+      if (sweeps_.sweeps()[done].purpose == SweepPurpose::Cut) cuts.push_back(sweeps_.sweeps()[done]);
     if (!cuts.empty()) before.apply(cuts, workers_);
     switch (question.about) {
       case About::Before:
@@ -740,12 +538,11 @@ void MaterialCheck::look_closely(Stock before) {
 }
 
 double MaterialCheck::from_of(const SweepUse& use, std::size_t stretch) const {
-  return stretch == use.first ? use.from : waiting_[stretch].stretch.phases[0].from;
+  return stretch == use.first ? use.from : waiting_[stretch].from;
 }
 
 double MaterialCheck::to_of(const SweepUse& use, std::size_t stretch) const {
-  const motion::Stretch& motion = waiting_[stretch].stretch;
-  return stretch == use.last ? use.to : motion.parameter_at(motion.start + motion.duration);
+  return stretch == use.last ? use.to : waiting_[stretch].to;
 }
 
 /// When the machine is at the start of a sweep, seconds.
@@ -767,9 +564,9 @@ static bool meets(const Stock& stock, const RevolvedBody& body, const SweepPath&
 }
 
 void MaterialCheck::find_first_touch(OpenIncident& episode, std::size_t sweep, const Stock& before) {
-  const SweepUse& use = uses_[sweep];
+  const SweepUse& use = sweeps_.uses()[sweep];
   if (use.role == Role::Cut) return;
-  const RevolvedBody& body = *sweeps_[sweep].body;
+  const RevolvedBody& body = *sweeps_.sweeps()[sweep].body;
   std::vector<TipPath> pieces;
   const auto append_pieces = [&](const motion::Stretch& stretch, double from, double to) {
     append_tip_paths(machine_.motion.kinematics, stretch.path, from, to, {.distance = forms_->reach()},
@@ -777,7 +574,7 @@ void MaterialCheck::find_first_touch(OpenIncident& episode, std::size_t sweep, c
   };
   const auto meets_pieces = [&] {
     return std::any_of(pieces.begin(), pieces.end(), [&](const TipPath& piece) {
-      return meets(before, body, placed(moved(piece.path, -workpiece_.origin), use.role));
+      return meets(before, body, placed(*forms_, moved(piece.path, -workpiece_.origin), use.role));
     });
   };
   // The first stretch that meets anything; one piece for all of them may do so where none of them does.
@@ -806,17 +603,17 @@ void MaterialCheck::find_first_touch(OpenIncident& episode, std::size_t sweep, c
 bool MaterialCheck::has_body_been_there(const Stock& before, std::size_t sweep) const {
   Stock without = before;
   std::size_t first = sweep;  // What a rapid asks stands in a row.
-  while (first > 0 && uses_[first - 1].role == uses_[sweep].role) --first;
-  const solids::AxisPlacement start = start_of(sweeps_[first].path);
+  while (first > 0 && sweeps_.uses()[first - 1].role == sweeps_.uses()[sweep].role) --first;
+  const solids::AxisPlacement start = start_of(sweeps_.sweeps()[first].path);
   bool is_in = false;
   for (const auto& [part, role] : {std::pair(ToolPart::Shank, Role::Shank), std::pair(ToolPart::Holder, Role::Holder),
                                    std::pair(ToolPart::Nose, Role::Nose)}) {
     const RevolvedBody* const body = whole_body(part);
     if (!body) continue;
-    const Sweep sweep{.body = body, .path = placed(stock::StraightPath{start, start.origin}, role)};
+    const Sweep sweep{.body = body, .path = placed(*forms_, stock::StraightPath{start, start.origin}, role)};
     is_in = without.apply({&sweep, 1}).front().meets() || is_in;
   }
-  return is_in && !meets(without, *forms_->passing_cutter(), sweeps_[sweep].path);
+  return is_in && !meets(without, *forms_->passing_cutter(), sweeps_.sweeps()[sweep].path);
 }
 
 /// The height by which a path must be raised so that a body meets nothing; none if that does not help.
@@ -834,8 +631,8 @@ static std::optional<double> enough_rise(const Stock& stock, const RevolvedBody&
 
 void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   const std::size_t index = *episode.deepest_sweep;
-  const SweepUse& use = uses_[index];
-  const SweepPath& path = sweeps_[index].path;
+  const SweepUse& use = sweeps_.uses()[index];
+  const SweepPath& path = sweeps_.sweeps()[index].path;
   Incident& incident = episode.incident;
   const auto set_shaper = [&] {
     const Vec3 point = incident.point - workpiece_.origin;
@@ -847,7 +644,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   };
   if (use.role != Role::Cut) {
     // The batch has found roughly how deep.
-    const SweepOutcome exact = ask(before, *sweeps_[index].body, path);
+    const SweepOutcome exact = ask(before, *sweeps_.sweeps()[index].body, path);
     incident.amount = exact.depth;
     incident.point = in_machine(exact.point);
   }
@@ -868,7 +665,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
       incident.limit = edge;
       // The dexels do not measure along a tool that lies.
       const Vec3 axis = axis_of(path);
-      if (is_lying(axis)) incident.amount = enough_rise(before, *sweeps_[index].body, path, axis).value_or(0);
+      if (is_lying(axis)) incident.amount = enough_rise(before, *sweeps_.sweeps()[index].body, path, axis).value_or(0);
       incident.amount += edge;
       break;
     }
@@ -898,7 +695,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   // Of rapids, in what the first of them has found: they have cut since.
   const bool is_of_rapids = incident.kind == IncidentKind::RapidInMaterial && episode.before;
   const Stock& found = is_of_rapids ? *episode.before : before;
-  const std::optional<double> rise = enough_rise(found, *sweeps_[index].body, path, up);
+  const std::optional<double> rise = enough_rise(found, *sweeps_.sweeps()[index].body, path, up);
   incident.enough.reset();
   if (!rise) return;
   // The dexels do not measure along a tool that lies, and the material ends up to half a spacing beside them.

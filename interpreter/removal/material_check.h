@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "interpreter/removal/incident.h"
-#include "interpreter/removal/joined_path.h"
 #include "interpreter/removal/kept_repeats.h"
-#include "interpreter/removal/tip_paths.h"
+#include "interpreter/removal/motion_sweeps.h"
 #include "interpreter/removal/tool_forms.h"
 #include "interpreter/simulation/run_findings.h"
 #include "interpreter/simulation/timing.h"
@@ -78,71 +77,6 @@ class MaterialCheck {
   const Workpiece& workpiece() const { return workpiece_; }
 
  private:
-  /// What a sweep is for.
-  enum class Role : std::uint8_t {
-    Cut,
-    Rest,  ///< Of what has been passed through where nothing may be cut.
-    RapidCutter,
-    StandingCutter,
-    Shank,
-    ShankWall,
-    Holder,
-    HolderNear,
-    Nose,
-    NoseNear
-  };
-
-  /// Whether the cutter may cut.
-  enum class Cutting : std::uint8_t { Allowed, InRapid, Standing };
-
-  /// A way on which it may not.
-  struct PassedPath {
-    stock::SweepPath path;
-    stock::CutTag tag = 0;
-  };
-
-  /// A stretch that waits for being cut.
-  struct UncutStretch {
-    motion::Stretch stretch;
-    std::size_t line = 0;
-    std::size_t frame = 0;  ///< Index of the frame in force.
-    bool is_in_inches = false;
-    bool is_feed = false;
-    bool is_standing = false;  ///< A tool where it is mounted.
-    double length = 0;         ///< Of the tip's path, mm.
-    double way = 0;            ///< Of the tip up to its start, mm.
-    double rise = 0;           ///< From its start to its end, along Z of the frame, mm.
-    bool is_from_cut = false;  ///< A cut in feed has led to the height of its start. Known once it has been cut.
-  };
-
-  /// A sweep's purpose, beside the sweep.
-  struct SweepUse {
-    std::uint32_t first = 0;  ///< Indexes among the stretches that wait; mostly one.
-    std::uint32_t last = 0;
-    Role role = Role::Cut;
-    double from = 0;  ///< Path parameter of the first.
-    double to = 0;    ///< Path parameter of the last.
-  };
-
-  /// What sweeps are made of, of the bodies of the tool: the tip's path, workpiece frame, and what SweepUse has of it.
-  struct PathOfSweeps {
-    stock::SweepPath tip;
-    std::size_t first = 0;
-    double from = 0;
-    std::size_t last = 0;
-    double to = 0;
-  };
-
-  /// The pieces of a motion's path that wait for the next one.
-  struct JoinedPieces {
-    JoinedPath path;
-    std::uint64_t tag = 0;  ///< Of the motion.
-    std::size_t first = 0;
-    double from = 0;
-    std::size_t last = 0;
-    double to = 0;
-  };
-
   /// What the motions of a line have removed.
   struct LineWork {
     std::size_t line = 0;
@@ -182,21 +116,10 @@ class MaterialCheck {
 
   void form(const CuttingTool& tool);
   void stand(const running::Event& event, double time, const geometry::Frame& frame);
-  void append_pieces(bool is_feed);
-  void join(const TipPath& piece, std::size_t stretch);
-  void append_joined();
-  void append_rapid();
-  double depth_limit() const;
-  double end_rim(const PathOfSweeps& path) const;
-  void show_moments(const motion::Stretch& stretch);
+  SweepSetting setting() const;
+  void show_moments();
   Cutting cutting_of(bool is_feed) const;
-  const solids::RevolvedBody* removing_cutter(Cutting cutting) const;
-  void append_rest();
-  void change_cutting(Cutting cutting);
-  void append_sweeps(const PathOfSweeps& path, Cutting cutting);
-  void append_sweep(const solids::RevolvedBody* body, const PathOfSweeps& of, Role role);
-  bool may_meet(const solids::RevolvedBody& body, const stock::SweepPath& path, double margin = 0) const;
-  void divide(const motion::Stretch& stretch, double begin, double end);
+  void append_sweeps();
   void cut_waiting();
   void cut_before_joined();
   void cut_sweeps();
@@ -215,7 +138,6 @@ class MaterialCheck {
   void look_closely(stock::Stock before);
   void find_first_touch(OpenIncident& episode, std::size_t sweep, const stock::Stock& before);
   void find_worst(OpenIncident& episode, const stock::Stock& before);
-  stock::SweepPath placed(const stock::SweepPath& tip, Role role) const;
   void compare_with_target();
   void look_for_loose_pieces();
   void close(OpenIncident& episode);
@@ -247,15 +169,10 @@ class MaterialCheck {
   bool is_at_cut_ = false;                     ///< A cut in feed has led to the present height.
   std::vector<geometry::Frame> frames_;
   std::vector<UncutStretch> waiting_;
-  std::vector<stock::Sweep> sweeps_;
-  std::vector<SweepUse> uses_;
-  Cutting cutting_ = Cutting::Allowed;                  ///< On the last motion.
-  std::vector<PassedPath> passed_;                      ///< Since it has been allowed, or not for this reason.
-  std::vector<TipPath> pieces_;                         ///< Kept, so that its memory is.
-  std::optional<JoinedPieces> joined_;                  ///< Of the present motion.
-  std::vector<std::pair<TipPath, std::size_t>> rapid_;  ///< Of the present rapid in phases, each with its stretch.
-  double way_taken_ = 0;                                ///< Of the tip, mm.
-  std::size_t cut_ = 0;                                 ///< Stretches that have been cut.
+  std::size_t with_sweeps_ = 0;  ///< Of those that wait, the first so many have theirs.
+  MotionSweeps sweeps_;          ///< Of those that wait.
+  double way_taken_ = 0;         ///< Of the tip, mm.
+  std::size_t cut_ = 0;          ///< Stretches that have been cut.
   std::map<IncidentKey, OpenIncident> open_;
   std::vector<OpenIncident> closed_;  ///< Of the present batch.
   /// Incidents are looked at closely up to this number: each takes some thousand sweeps.

@@ -27,6 +27,10 @@ bool turns_axis(const Kinematics& kinematics, const Path& path) {
                      [](const kinematics::Coordinates& c) { return c[kinematics::kB] != 0 || c[kinematics::kC] != 0; });
 }
 
+bool is_rounded_corner(const Path& path) {
+  return path.kind == PathKind::Polynomial && !(path.c[2].isZero(0) && path.c[3].isZero(0));
+}
+
 namespace {
 
 /// The path of the tip as a function of the path parameter, with bounds of how much it bends.
@@ -37,12 +41,7 @@ class TipCourse {
 
   bool turns() const { return turns_; }
 
-  AxisPlacement at(double s) const {
-    const kinematics::Coordinates value = path_.at(s).value;
-    const kinematics::Coordinates tip =
-        path_.is_of_joints ? kinematics::forward(kinematics_, value, path_.tool_length) : value;
-    return placement_of(kinematics_, tip);
-  }
+  AxisPlacement at(double s) const { return placement_on(kinematics_, path_, s); }
 
   bool is_straight() const {
     return !turns_ && path_.kind == PathKind::Polynomial && path_.c[2].head<3>().isZero(0) &&
@@ -235,6 +234,11 @@ Vec3 end_of(const stock::SweepPath& path) {
 AxisPlacement placement_of(const Kinematics& kinematics, const kinematics::Coordinates& tip) {
   if (kinematics.kind == MachineKind::ThreeAxis) return {tip.head<3>(), Vec3(0, 0, 1)};
   return {tip.head<3>(), geometry::axes_from_angles(tip[kinematics::kB], tip[kinematics::kC]).col(2)};
+}
+
+AxisPlacement placement_on(const Kinematics& kinematics, const Path& path, double s) {
+  const kinematics::Coordinates value = path.at(s).value;
+  return placement_of(kinematics, path.is_of_joints ? kinematics::forward(kinematics, value, path.tool_length) : value);
 }
 
 double length_of(const stock::SweepPath& path) {

@@ -32,6 +32,9 @@ struct ToolReach {
 /// Whether B or C moves on a path, of a machine that has them.
 bool turns_axis(const kinematics::Kinematics& kinematics, const kinematics::Path& path);
 
+/// Whether a path is that of a rounded corner.
+bool is_rounded_corner(const kinematics::Path& path);
+
 /// Appends the path of the tip for path parameters from `from` to `to`. Lines, arcs and helices are exact while B and C
 /// rest. Other paths are divided, so that no point of the tool that matters strays from its own path by more than
 /// `tolerance` mm.
@@ -55,6 +58,9 @@ geometry::Vec3 end_of(const stock::SweepPath& path);
 
 /// How the tool stands with its tip at a position: X, Y, Z, B, C.
 solids::AxisPlacement placement_of(const kinematics::Kinematics& kinematics, const kinematics::Coordinates& tip);
+
+/// How the tool stands at a parameter of a path.
+solids::AxisPlacement placement_on(const kinematics::Kinematics& kinematics, const kinematics::Path& path, double s);
 
 /// Length of the path, mm.
 double length_of(const stock::SweepPath& path);

@@ -18,7 +18,7 @@ namespace {
 /// The units of each tile, in order.
 class TileBins {
  public:
-  TileBins(std::span<const UnitSweep> units, const DexelGrid& grid) : grid_(grid) {
+  TileBins(const UnitSweeps& units, const DexelGrid& grid) : grid_(grid) {
     starts_.assign(static_cast<std::size_t>(grid.tile_columns()) * static_cast<std::size_t>(grid.tile_rows()) + 1, 0);
     for_each(units, [&](std::size_t tile, std::size_t) { ++starts_[tile + 1]; });
     for (std::size_t tile = 1; tile < starts_.size(); ++tile) {
@@ -50,7 +50,7 @@ class TileBins {
   }
 
   template <class Use>
-  void for_each(std::span<const UnitSweep> units, Use&& use) const {
+  void for_each(const UnitSweeps& units, Use&& use) const {
     for (std::size_t i = 0; i < units.size(); ++i) {
       const solids::BoundingBox& box = units[i].bounds;
       const int first_column = grid_.first_column(box.min().x()) / Tile::kSize;
@@ -155,7 +155,7 @@ class FoundInTile {
 /// Sweeps that turn have many units; asks once for all of them whether they pass a tile.
 class PassedTile {
  public:
-  explicit PassedTile(std::span<const UnitSweep> units_of_all) : all_(units_of_all) {}
+  explicit PassedTile(const UnitSweeps& units_of_all) : all_(units_of_all) {}
 
   /// `units` are the indexes of the tile's units, `i` the present one.
   bool is_passed(const Sweep& sweep, std::span<const std::uint32_t> units, std::size_t i, const DexelGrid& part,
@@ -185,7 +185,7 @@ class PassedTile {
  private:
   static constexpr std::size_t kMany = 4;
 
-  std::span<const UnitSweep> all_;
+  const UnitSweeps& all_;
   std::optional<std::uint32_t> sweep_;
   bool is_passed_ = false;
 };
@@ -206,8 +206,8 @@ std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Work
 
 std::vector<SweepOutcome> Stock::apply_together(std::span<const Sweep> sweeps, const Workers& workers) {
   std::vector<SweepOutcome> outcomes(sweeps.size());
-  const UnitSweeps divided(sweeps, spacing(), bounds().max().z());
-  const TileBins bins(divided.units(), grid());
+  const UnitSweeps divided(sweeps, spacing(), bounds().max().z(), workers);
+  const TileBins bins(divided, grid());
   std::vector<DexelCount> counts(bins.size());
   own(bins.tiles());
 
@@ -220,9 +220,9 @@ std::vector<SweepOutcome> Stock::apply_together(std::span<const Sweep> sweeps, c
     bool is_cut = false;
     const UnitSweep* before = nullptr;  // The last one that has cut.
     FoundInTile found;
-    PassedTile passed(divided.units());
+    PassedTile passed(divided);
     for (std::size_t i = 0; i < units.size(); ++i) {
-      const UnitSweep& unit = divided.units()[units[i]];
+      const UnitSweep& unit = divided[units[i]];
       const Sweep& sweep = sweeps[unit.sweep];
       const Tile& present = changed ? *changed : *pointer;
       if (!(unit.bounds.min().z() < present.ceiling() && unit.bounds.max().z() > present.floor())) continue;
@@ -255,19 +255,19 @@ std::vector<SweepOutcome> Stock::apply_together(std::span<const Sweep> sweeps, c
     pointer = std::move(changed);
   };
 
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < bins.tiles().size(); i = next++) work_on(bins.tiles()[i]);
-  };
-  if (workers) workers(work);
-  work();
+  // Those with much to do first, so that all threads end about together.
+  std::vector<TileIndex> by_work(bins.tiles().begin(), bins.tiles().end());
+  std::stable_sort(by_work.begin(), by_work.end(), [&](const TileIndex& one, const TileIndex& other) {
+    return bins.units_of(one).size() > bins.units_of(other).size();
+  });
+  for_each_number(workers, by_work.size(), [&](std::size_t i) { work_on(by_work[i]); });
 
   // In the order of the tiles, whichever thread was at them.
   for (const TileIndex& index : bins.tiles()) {
     const DexelGrid part = grid().tile(index.column, index.row);
     const auto units = bins.units_of(index);
     for (std::size_t i = 0; i < units.size(); ++i) {
-      const UnitSweep& unit = divided.units()[units[i]];
+      const UnitSweep& unit = divided[units[i]];
       const DexelCount& count = counts[bins.start_of(index) + i];
       if (count.all.row >= 0)
         add(count, part, grid().cell(), std::abs(tilt_of(sweeps[unit.sweep])), outcomes[unit.sweep]);

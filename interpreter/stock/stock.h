@@ -10,11 +10,9 @@
 
 #include "interpreter/stock/blank.h"
 #include "interpreter/stock/sweep.h"
+#include "interpreter/stock/workers.h"
 
 namespace isocnc::stock {
-
-/// Runs `work` on one or several threads at once, and returns when all have ended.
-using Workers = std::function<void(const std::function<void()>& work)>;
 
 /// Which tile: its column and row.
 struct TileIndex {

@@ -106,37 +106,39 @@ class AxisTurn {
 
 }  // namespace
 
-UnitSweeps::UnitSweeps(std::span<const Sweep> sweeps, double spacing, double top)
-    : tolerance_(spacing / 20), top_(top) {
-  units_.reserve(sweeps.size());
-  for (std::size_t i = 0; i < sweeps.size(); ++i) append(sweeps[i], static_cast<std::uint32_t>(i));
+SweptShapes::SweptShapes(std::span<const Sweep> sweeps) {
+  std::pair<const solids::RevolvedBody*, SweepPurpose> last = {nullptr, SweepPurpose::Cut};
+  for (const Sweep& sweep : sweeps) {
+    if (!sweep.body || last == std::pair(sweep.body, sweep.purpose)) continue;
+    last = {sweep.body, sweep.purpose};
+    const auto index = static_cast<std::uint32_t>(shapes_.size());
+    if (indexes_.try_emplace(last, index).second) shapes_.push_back(shape_of_body(*sweep.body, sweep.purpose));
+  }
 }
 
-std::uint32_t UnitSweeps::shape_index(const solids::RevolvedBody& body, SweepPurpose purpose) {
-  if (last_body_ == std::pair(&body, purpose)) return shape_;
-  last_body_ = {&body, purpose};
-  const auto [at, is_new] = shape_indexes_.try_emplace(last_body_, static_cast<std::uint32_t>(shapes_.size()));
-  if (is_new) shapes_.push_back(shape_of_body(body, purpose));
-  return at->second;
-}
+SweepDivider::SweepDivider(const SweptShapes& shapes, double spacing, double top)
+    : shapes_(shapes), tolerance_(spacing / 20), top_(top) {}
 
-void UnitSweeps::append(const Sweep& sweep, std::uint32_t index) {
+void SweepDivider::append(const Sweep& sweep, std::uint32_t index) {
   if (!sweep.body || !std::visit([](const auto& path) { return is_usable(path); }, sweep.path)) return;
   sweep_ = index;
   piece_ = 0;
-  shape_ = shape_index(*sweep.body, sweep.purpose);
+  if (last_body_ != std::pair(sweep.body, sweep.purpose)) {
+    last_body_ = {sweep.body, sweep.purpose};
+    shape_ = shapes_.index_of(*sweep.body, sweep.purpose);
+  }
   std::visit([&](const auto& path) { append(path); }, sweep.path);
 }
 
-void UnitSweeps::append(const StraightPath& path) { append_line(path.from.origin, path.to, path.from.axis); }
+void SweepDivider::append(const StraightPath& path) { append_line(path.from.origin, path.to, path.from.axis); }
 
-void UnitSweeps::append_line(const Vec3& from, const Vec3& to, const Vec3& axis) {
+void SweepDivider::append_line(const Vec3& from, const Vec3& to, const Vec3& axis) {
   if (!is_vertical(axis)) return append_slanted({from, axis}, to - from, 0, shape().body_pieces);
   append_upright(UprightLine{from, to}, axis.z() < 0, {from.cwiseMin(to), from.cwiseMax(to)});
 }
 
-void UnitSweeps::append_upright(const std::variant<UprightLine, LevelArc, SlantedLine>& motion, bool is_upside_down,
-                                const BoundingBox& path) {
+void SweepDivider::append_upright(const std::variant<UprightLine, LevelArc, SlantedLine>& motion, bool is_upside_down,
+                                  const BoundingBox& path) {
   const SweptShape& body = shape();
   const double bottom = is_upside_down ? -body.top : body.bottom;
   const double top = is_upside_down ? -body.bottom : body.top;
@@ -148,8 +150,8 @@ void UnitSweeps::append_upright(const std::variant<UprightLine, LevelArc, Slante
                                path.max() + Vec3(body.radius, body.radius, top)}});
 }
 
-void UnitSweeps::append_slanted(const AxisPlacement& from, const Vec3& travel, std::size_t first_piece,
-                                std::size_t piece_count) {
+void SweepDivider::append_slanted(const AxisPlacement& from, const Vec3& travel, std::size_t first_piece,
+                                  std::size_t piece_count) {
   UnitSweep unit{
       .sweep = sweep_, .shape = shape_, .piece = piece_, .motion = SlantedLine{from, travel, first_piece, piece_count}};
   for (std::size_t i = 0; i < piece_count; ++i)
@@ -157,7 +159,7 @@ void UnitSweeps::append_slanted(const AxisPlacement& from, const Vec3& travel, s
   units_.push_back(unit);
 }
 
-void UnitSweeps::append(const HelixPath& path) {
+void SweepDivider::append(const HelixPath& path) {
   const Helix& helix = path.helix;
   const double level = std::max({std::abs(helix.out.z()), std::abs(helix.side.z()), helix.rise.norm()});
   if (is_vertical(path.axis) && level < 1e-9) return append_level(helix, path.axis.z() < 0);
@@ -165,7 +167,7 @@ void UnitSweeps::append(const HelixPath& path) {
 }
 
 /// In parts of at most half a turn.
-void UnitSweeps::append_level(const Helix& helix, bool is_upside_down) {
+void SweepDivider::append_level(const Helix& helix, bool is_upside_down) {
   const double turn = std::min(helix.sweep, 2 * std::numbers::pi);
   const int parts = turn <= 3.1 ? 1 : 3;
   const bool is_counterclockwise = helix.out.cross(helix.side).z() > 0;
@@ -187,7 +189,7 @@ void UnitSweeps::append_level(const Helix& helix, bool is_upside_down) {
 }
 
 /// A chord deviates by radius angle^2 / 8. Where the circle is level and the axis vertical, only walls deviate.
-void UnitSweeps::append_chords(const Helix& helix, const Vec3& axis) {
+void SweepDivider::append_chords(const Helix& helix, const Vec3& axis) {
   const bool is_level = std::abs(helix.out.z()) + std::abs(helix.side.z()) < 1e-9 && is_vertical(axis);
   const double tolerance = is_level ? std::max(kDepthTolerance, tolerance_ / 5) : kDepthTolerance;
   const double radius = std::max(helix.out.norm(), helix.side.norm());
@@ -200,7 +202,7 @@ void UnitSweeps::append_chords(const Helix& helix, const Vec3& axis) {
   }
 }
 
-void UnitSweeps::append(const TurningPath& path) {
+void SweepDivider::append(const TurningPath& path) {
   const AxisTurn turn(path.from.axis, path.to.axis);
   if (turn.angle() * solids::kMaxCoordinate < 1e-3)
     return append_line(path.from.origin, path.to.origin, path.from.axis);
@@ -215,7 +217,7 @@ void UnitSweeps::append(const TurningPath& path) {
 ///   move along short straight lines.
 /// - A straight motion whose axis stands as in its middle deviates by half the angle times the distance from the middle
 ///   of the piece, at most half the tolerance, and its chord by at most a quarter.
-void UnitSweeps::append_turn(const TurningPath& path, std::size_t piece_index) {
+void SweepDivider::append_turn(const TurningPath& path, std::size_t piece_index) {
   piece_ = static_cast<std::uint32_t>(piece_index);
   const AxisTurn turn(path.from.axis, path.to.axis);
   const BodyPiece piece = shape().pieces[piece_index];
@@ -259,6 +261,19 @@ void UnitSweeps::append_turn(const TurningPath& path, std::size_t piece_index) {
     if (part.bottom > highest) continue;
     append_straight((part.bottom + part.top) / 2, straight_parts_of(part), index);
   }
+}
+
+/// Sweeps that one thread divides at once.
+static constexpr std::size_t kPart = 512;
+
+UnitSweeps::UnitSweeps(std::span<const Sweep> sweeps, double spacing, double top, const Workers& workers)
+    : shapes_(sweeps), parts_((sweeps.size() + kPart - 1) / kPart, SweepDivider(shapes_, spacing, top)) {
+  for_each_number(workers, parts_.size(), [&](std::size_t part) {
+    const std::size_t end = std::min(sweeps.size(), (part + 1) * kPart);
+    for (std::size_t i = part * kPart; i < end; ++i) parts_[part].append(sweeps[i], static_cast<std::uint32_t>(i));
+  });
+  for (const SweepDivider& part : parts_)
+    for (const UnitSweep& unit : part.units()) units_.push_back(&unit);
 }
 
 void UnitSweeps::apply(const UnitSweep& unit, const UnitSweep* before, DexelSink& sink) const {

@@ -1,7 +1,6 @@
 #include "interpreter/verification/verifier.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -145,19 +144,11 @@ void Verifier::note_unknown_place(std::size_t line) {
 
 void Verifier::examine_waiting() {
   std::vector<Examined> parts((stretches_.size() + kPart - 1) / kPart);
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < parts.size(); i = next++) {
-      const std::span all(stretches_);
-      const std::size_t count = std::min(kPart, all.size() - i * kPart);
-      parts[i] = examine(all.subspan(i * kPart, count), bodies_, machine_.motion.kinematics);
-    }
-  };
-  if (work_together_ && parts.size() > 1) {
-    work_together_(work);
-  } else {
-    work();
-  }
+  stock::for_each_number(work_together_, parts.size(), [&](std::size_t i) {
+    const std::span all(stretches_);
+    const std::size_t count = std::min(kPart, all.size() - i * kPart);
+    parts[i] = examine(all.subspan(i * kPart, count), bodies_, machine_.motion.kinematics);
+  });
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto place_of = [&](std::size_t stretch) -> StretchPlace {
       const std::size_t index = i * kPart + stretch;
