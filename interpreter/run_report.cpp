@@ -37,8 +37,18 @@ RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& 
   open(outputs.plot, plot_file_);
   open(outputs.stock_out, stock_file_);
   const plot::PlotSubject& subject = outputs.subject;
-  if (subject.scene)
-    verifier_.emplace(*subject.scene, machine, subject.origin, check::on_all_processors, outputs.material);
+  if (subject.scene) {
+    check::Crew& crew = crew_.emplace(check::processor_count());
+    const auto together = [&crew](const std::function<void()>& work) { crew.together(work); };
+    verifier_.emplace(*subject.scene, machine, subject.origin,
+                      crew.has_helpers() ? verification::WorkTogether(together) : verification::WorkTogether(),
+                      outputs.material);
+    verification::Alongside alongside;
+    if (crew.has_helpers())
+      alongside = {.start = [&crew](std::function<void()> task) { crew.start(std::move(task)); },
+                   .wait = [&crew] { crew.wait(); }};
+    verified_.emplace(*verifier_, std::move(alongside));
+  }
   const auto format = plot::plot_format(outputs.plot);
   if (format) plot_.emplace(*format, outputs.subject, machine);
   if (format == plot::PlotFormat::Html && verifier_ && verifier_->material())
@@ -66,7 +76,7 @@ void RunReport::take(const simulation::TimedEvent& timed) {
   if (timed.move) made.emplace(machine_.motion, *timed.move);
   summary_.add(timed, made ? &*made : nullptr);
   if (made) findings_.take(timed.event, *made);
-  if (verifier_) verifier_->take(timed);
+  if (verified_) verified_->take(timed);
   if (plot_) plot_->add(timed);
   if (trace_ != nullptr) trace_->write(to_json(timed, machine_) + '\n');
   if (samples_ == nullptr || !std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
@@ -76,7 +86,7 @@ void RunReport::take(const simulation::TimedEvent& timed) {
 }
 
 void RunReport::take(const motion::Stretch& stretch, const simulation::TimedEvent& timed) {
-  if (verifier_) verifier_->take(stretch, timed);
+  if (verified_) verified_->take(stretch, timed);
   if (plot_) plot_->add(stretch);
   if (samples_ == nullptr) return;
   sample_rest(stretch.start);
@@ -123,6 +133,7 @@ verification::VerifiedRun RunReport::end_run(std::string_view text, const runnin
   sort_warnings();
   simulation::RunOutcome outcome = findings_.outcome(text, result);
   if (!verifier_) return {.outcome = std::move(outcome)};
+  verified_->finish();
   return verification::verified_outcome(std::move(outcome), *verifier_, text, result);
 }
 

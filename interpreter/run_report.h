@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analyzer/check/side_by_side.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/plot/plot.h"
 #include "interpreter/simulation/compensation.h"
@@ -13,6 +14,7 @@
 #include "interpreter/simulation/summary.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/verification/verified_run.h"
+#include "interpreter/verification/verifier_queue.h"
 
 namespace isocnc::interpreter {
 
@@ -81,9 +83,11 @@ class RunReport {
   simulation::Timing timing_;
   simulation::RunFindings findings_;
   std::optional<verification::Verifier> verifier_;
+  std::optional<verification::VerifierQueue> verified_;  ///< Leads to the verifier.
   std::vector<simulation::RunWarning> warnings_;
   simulation::Compensation compensation_;
   simulation::Compensation::Listeners compensated_;
+  std::optional<check::Crew> crew_;  ///< The last member, since its threads use the others.
 };
 
 }  // namespace isocnc::interpreter

@@ -50,7 +50,7 @@ RevisionRun run_revision(const Revision& revision, running::RunOptions options,
           }};
   if (verifier)
     listeners.stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent& timed) {
-      verifier->take(stretch, timed);
+      verifier->take(stretch, removal::MotionFacts(timed));
     };
   run.recorded = comparison::record(revision.text, std::move(options), revision.machine, listeners);
   return run;

@@ -97,9 +97,9 @@ void MaterialHistory::feed(MaterialCheck& check, const BlockRecord& record, doub
     if (!piece.stretch) continue;
     take_events(false);
     if (piece.end() <= until) {
-      check.take(*piece.stretch, piece.timed, frame);
+      check.take(*piece.stretch, removal::MotionFacts(piece.timed), frame);
     } else {
-      check.take_part(*piece.stretch, piece.timed, frame, first_parameter(*piece.stretch),
+      check.take_part(*piece.stretch, removal::MotionFacts(piece.timed), frame, first_parameter(*piece.stretch),
                       piece.stretch->parameter_at(until));
     }
   }
@@ -400,7 +400,7 @@ std::vector<MaterialHistory::InCutPiece> MaterialHistory::in_cut_pieces(const Bl
         pieces.push_back({.time = time});
       }
       end = static_cast<double>(pieces.size()) < count ? std::min(begin_of(pieces.size()) - passed, length) : length;
-      check.take_part(stretch, record.pieces[i].timed, record.frame, first + done,
+      check.take_part(stretch, removal::MotionFacts(record.pieces[i].timed), record.frame, first + done,
                       end < length ? first + end : last_parameter(stretch));
       if (!(end > done)) break;  // Of no length.
     }

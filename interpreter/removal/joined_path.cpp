@@ -16,11 +16,13 @@ static AxisPlacement placement_at_end(const stock::SweepPath& path) {
   return {end_of(path), axis_of(path)};
 }
 
+/// Directions of an axis at rest differ by less, radians.
+static constexpr double kRounding = 1e-12;
+
 /// An upper bound of the angle between two unit vectors that are less than a radian apart.
 static double turn_between(const Vec3& one, const Vec3& other) { return 1.05 * (other - one).norm(); }
 
-JoinedPath::JoinedPath(const TipPath& first)
-    : path_(first.path), is_arc_(std::holds_alternative<stock::HelixPath>(first.path)) {
+JoinedPath::JoinedPath(const TipPath& first) : path_(first.path) {
   nodes_[0] = start_of(first.path);
   nodes_[1] = placement_at_end(first.path);
   greatest_ = greatest_of(first, turn_between(nodes_[0].axis, nodes_[1].axis));
@@ -43,13 +45,14 @@ JoinedPath::Greatest JoinedPath::of_both(const Greatest& one, const Greatest& ot
 }
 
 bool JoinedPath::add(const TipPath& next, const Tolerance& tolerance) {
-  if (is_arc_ || std::holds_alternative<stock::HelixPath>(next.path)) return false;
-  if (count_ == kMostNodes) return false;
+  // Of a line at rest it is not known how far up the tool matters while the axis turns.
+  const bool is_alike = next.path.index() == path_.index() && !std::holds_alternative<stock::HelixPath>(path_);
+  if (!is_alike || count_ == kMostNodes) return false;
   const AxisPlacement& start = nodes_.front();
   const AxisPlacement end = placement_at_end(next.path);
   const Greatest greatest = of_both(greatest_, greatest_of(next, turn_between(nodes().back().axis, end.axis)));
-  if (greatest.turn == 0) {
-    if (!strays_little_at_rest(end, greatest, tolerance)) return false;
+  if (std::holds_alternative<stock::StraightPath>(path_)) {
+    if (greatest.turn > kRounding || !strays_little_at_rest(end, greatest, tolerance)) return false;
     path_ = stock::StraightPath{start, end.origin};
   } else {
     if (!strays_little(end, greatest, tolerance)) return false;

@@ -52,7 +52,6 @@ class JoinedPath {
                              const Tolerance& tolerance) const;
 
   stock::SweepPath path_;
-  bool is_arc_;                                          ///< An arc or a helix is never joined.
   std::array<solids::AxisPlacement, kMostNodes> nodes_;  ///< Where the pieces begin and end.
   std::size_t count_ = 2;
   Greatest greatest_;

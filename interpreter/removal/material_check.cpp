@@ -85,43 +85,52 @@ void MaterialCheck::stand(const running::Event& event, double time, const geomet
                       .is_standing = true});
 }
 
+MotionFacts::MotionFacts(const simulation::TimedEvent& event)
+    : line(event.event.line),
+      is_in_inches(event.event.is_in_inches),
+      is_at_known_place(event.is_at_known_place()),
+      is_move(event.move.has_value()),
+      is_feed(is_move && event.move->feed.kind != kinematics::FeedKind::Rapid) {}
+
+void MaterialCheck::take_end(const MotionFacts& motion, double time) {
+  last_line_ = motion.line;
+  is_in_inches_ = motion.is_in_inches;
+  last_time_ = time;
+}
+
 void MaterialCheck::take(const simulation::TimedEvent& event) {
   if (const auto* const speed = std::get_if<running::SpindleSpeedEvent>(&event.event.what))
     spindle_speed_ = speed->speed;
   const auto before = spindle_;
-  last_line_ = event.event.line;
-  is_in_inches_ = event.event.is_in_inches;
-  last_time_ = event.start + event.duration;
+  take_end(MotionFacts(event), event.start + event.duration);
   spindle_ = simulation::spindle_after(event.event, spindle_, spindle_speed_);
   if (before.function != 5 && spindle_.function == 5) spindle_stopped_by_ = event.event.line;
 }
 
-void MaterialCheck::take(const motion::Stretch& stretch, const simulation::TimedEvent& event,
-                         const geometry::Frame& frame) {
-  take_part(stretch, event, frame, stretch.phases[0].from, stretch.parameter_at(stretch.start + stretch.duration));
+void MaterialCheck::take(const motion::Stretch& stretch, const MotionFacts& motion, const geometry::Frame& frame) {
+  take_part(stretch, motion, frame, stretch.phases[0].from, stretch.parameter_at(stretch.start + stretch.duration));
 }
 
-void MaterialCheck::take_part(const motion::Stretch& stretch, const simulation::TimedEvent& event,
-                              const geometry::Frame& frame, double from, double to) {
+void MaterialCheck::take_part(const motion::Stretch& stretch, const MotionFacts& motion, const geometry::Frame& frame,
+                              double from, double to) {
   last_path_ = stretch.path;
   last_place_ = to;
-  if (!forms_ || !event.move || !event.is_at_known_place()) return;
+  if (!forms_ || !motion.is_move || !motion.is_at_known_place) return;
   if (!has_turned_ && turns_axis(machine_.motion.kinematics, stretch.path)) {
     cut_waiting();
     has_turned_ = true;
     form(CuttingTool(forms_->tool()));
   }
-  const bool is_feed = event.move->feed.kind != kinematics::FeedKind::Rapid;
   last_frame_ = frame;
   if (frames_.empty() || !(frames_.back() == frame)) frames_.push_back(frame);
   waiting_.push_back({.stretch = stretch,
                       .from = from,
                       .to = to,
-                      .cutting = cutting_of(is_feed),
-                      .line = event.event.line,
+                      .cutting = cutting_of(motion.is_feed),
+                      .line = motion.line,
                       .frame = frames_.size() - 1,
-                      .is_in_inches = event.event.is_in_inches,
-                      .is_feed = is_feed});
+                      .is_in_inches = motion.is_in_inches,
+                      .is_feed = motion.is_feed});
   if (watcher_) show_moments();
   if (waiting_.size() >= kBatch) cut_before_joined();
 }

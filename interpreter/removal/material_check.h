@@ -18,6 +18,17 @@
 
 namespace isocnc::removal {
 
+/// What of the event of a motion matters for its stretches.
+struct MotionFacts {
+  explicit MotionFacts(const simulation::TimedEvent& event);
+
+  std::size_t line = 0;
+  bool is_in_inches = false;
+  bool is_at_known_place = false;  ///< It is known where the machine is before and after it.
+  bool is_move = false;            ///< Otherwise the machine is asked for nothing.
+  bool is_feed = false;
+};
+
 /// Cuts the blank along a run, and finds what goes wrong with its material. It hears what Timing tells its listeners.
 /// What it finds does not depend on the number of threads. Its memory does not depend on the number of motions, but for
 /// what it notes of each line.
@@ -38,12 +49,14 @@ class MaterialCheck {
              const geometry::Frame& frame, bool is_place_known = true);
   /// Takes a stretch of motion, with its event and the frame in force. Nothing is cut where it is not known where the
   /// machine is.
-  void take(const motion::Stretch& stretch, const simulation::TimedEvent& event, const geometry::Frame& frame);
+  void take(const motion::Stretch& stretch, const MotionFacts& motion, const geometry::Frame& frame);
   /// Takes the part of a stretch from one path parameter to another.
-  void take_part(const motion::Stretch& stretch, const simulation::TimedEvent& event, const geometry::Frame& frame,
-                 double from, double to);
+  void take_part(const motion::Stretch& stretch, const MotionFacts& motion, const geometry::Frame& frame, double from,
+                 double to);
   /// Takes an event that has been made.
   void take(const simulation::TimedEvent& event);
+  /// Takes the end of a motion, seconds: what there is to know of the event of one between known places.
+  void take_end(const MotionFacts& motion, double time);
   /// Ends the run.
   void finish();
 

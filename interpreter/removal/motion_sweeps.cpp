@@ -98,9 +98,9 @@ static bool bends(const kinematics::Path& path, double from, double to) {
 }
 
 /// Appends to sweeps, of given stretches.
-class MotionSweeps::Writer {
+class MotionSweeps::SweepWriter {
  public:
-  Writer(MotionSweeps& all, const SweepSetting& setting, std::span<const UncutStretch> waiting)
+  SweepWriter(MotionSweeps& all, const SweepSetting& setting, std::span<const UncutStretch> waiting)
       : all_(all), setting_(setting), forms_(setting.forms), waiting_(waiting) {}
 
   /// Sets what is known of the stretch now, which is one of those that wait.
@@ -108,23 +108,16 @@ class MotionSweeps::Writer {
     const auto index = static_cast<std::size_t>(&stretch - waiting_.data());
     divide(setting_, stretch, stretch.to, pieces_);
     if (stretch.is_feed) append_rapid();
-    if (pieces_.empty()) return;
-    stretch.travel = end_of(pieces_.back().path) - start_of(pieces_.front().path).origin;
-    if (all_.joined_ && stretch.stretch.tag != all_.joined_->tag) append_joined();
-    const bool is_in_phases = !stretch.is_feed && setting_.asks;
-    for (const TipPath& piece : pieces_) {
-      stretch.length += length_of(piece.path);
-      if (is_in_phases)
-        all_.rapid_.emplace_back(piece, index);
-      else if (stretch.is_feed && stretch.cutting == Cutting::Allowed)
-        join(piece, index);
-      else
-        append_sweeps({piece.path, index, piece.from, index, piece.to}, stretch.cutting);
-    }
+    if (!pieces_.empty()) append_pieces(stretch, index);
+    // An open path begins with a stretch, so that it is clear which ones may be cut before it.
+    if (all_.joined_ && all_.joined_->first == index && all_.joined_->from != stretch.from) append_joined();
     if (!(stretch.stretch.ends_move || stretch.is_standing)) return;
     append_joined();
     append_rapid();
   }
+
+  /// Whether a motion has had a path.
+  bool has_paths() const { return has_paths_; }
 
   void append_joined() {
     if (!all_.joined_) return;
@@ -155,6 +148,21 @@ class MotionSweeps::Writer {
   }
 
  private:
+  void append_pieces(UncutStretch& stretch, std::size_t index) {
+    stretch.travel = end_of(pieces_.back().path) - start_of(pieces_.front().path).origin;
+    if (all_.joined_ && stretch.stretch.tag != all_.joined_->tag) append_joined();
+    const bool is_in_phases = !stretch.is_feed && setting_.asks;
+    for (const TipPath& piece : pieces_) {
+      stretch.length += length_of(piece.path);
+      if (is_in_phases)
+        all_.rapid_.emplace_back(piece, index);
+      else if (stretch.is_feed && stretch.cutting == Cutting::Allowed)
+        join(piece, index);
+      else
+        append_sweeps({piece.path, index, piece.from, index, piece.to}, stretch.cutting);
+    }
+  }
+
   /// Adds a piece of a feed motion to those before it, of which one sweep is made.
   void join(const TipPath& piece, std::size_t stretch) {
     const JoinedPath::Tolerance tolerance{.aside = setting_.spacing * kPathShare, .in_height = kHeightTolerance};
@@ -183,6 +191,7 @@ class MotionSweeps::Writer {
   }
 
   void append_sweeps(const PathOfSweeps& path, Cutting cutting) {
+    has_paths_ = true;
     change_cutting(cutting, path.first);
     const RevolvedBody* const cutter = removing_cutter(forms_, cutting);
     if (cutter && cutter != forms_.cutter() && may_meet(setting_, *cutter, path.tip))
@@ -243,6 +252,7 @@ class MotionSweeps::Writer {
   const ToolForms& forms_;
   std::span<const UncutStretch> waiting_;
   std::vector<TipPath> pieces_;
+  bool has_paths_ = false;
 };
 
 namespace {
@@ -282,18 +292,21 @@ void MotionSweeps::append(const SweepSetting& setting, std::span<UncutStretch> w
   const std::vector<StretchRun> runs =
       workers ? runs_of(waiting, first) : std::vector<StretchRun>{{first, waiting.size(), false}};
   std::vector<MotionSweeps> parts(runs.size());
+  std::vector<char> have_paths(runs.size());
   stock::for_each_number(workers, runs.size(), [&](std::size_t i) {
     if (!runs[i].is_independent) return;
-    Writer writer(parts[i], setting, waiting);
+    SweepWriter writer(parts[i], setting, waiting);
     for (UncutStretch& each : waiting.subspan(runs[i].begin, runs[i].end - runs[i].begin)) writer.append(each);
     writer.append_joined();
+    have_paths[i] = static_cast<char>(writer.has_paths());
   });
-  Writer writer(*this, setting, waiting);
+  SweepWriter writer(*this, setting, waiting);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!runs[i].is_independent) {
       for (UncutStretch& each : waiting.subspan(runs[i].begin, runs[i].end - runs[i].begin)) writer.append(each);
       continue;
     }
+    if (have_paths[i] == 0) continue;
     writer.append_joined();
     writer.append_rapid();
     writer.change_cutting(Cutting::Allowed, runs[i].begin);
@@ -303,11 +316,11 @@ void MotionSweeps::append(const SweepSetting& setting, std::span<UncutStretch> w
 }
 
 void MotionSweeps::append_rapid(const SweepSetting& setting, std::span<const UncutStretch> waiting) {
-  Writer(*this, setting, waiting).append_rapid();
+  SweepWriter(*this, setting, waiting).append_rapid();
 }
 
 void MotionSweeps::append_rest_of_motion(const SweepSetting& setting, std::span<const UncutStretch> waiting) {
-  Writer writer(*this, setting, waiting);
+  SweepWriter writer(*this, setting, waiting);
   writer.append_joined();
   writer.append_rapid();
 }

@@ -11,8 +11,7 @@
 #include "interpreter/removal/joined_path.h"
 #include "interpreter/removal/tip_paths.h"
 #include "interpreter/removal/tool_forms.h"
-#include "interpreter/stock/sweep.h"
-#include "interpreter/stock/workers.h"
+#include "interpreter/stock/stock.h"
 
 namespace isocnc::removal {
 
@@ -141,7 +140,7 @@ class MotionSweeps {
     double to = 0;
   };
 
-  class Writer;
+  class SweepWriter;
 
   std::vector<stock::Sweep> sweeps_;
   std::vector<SweepUse> uses_;

@@ -195,6 +195,22 @@ constexpr std::size_t kAtOnce = 8192;
 
 }  // namespace
 
+void for_each_number(const Workers& workers, std::size_t count, const std::function<void(std::size_t)>& use) {
+  std::atomic<std::size_t> taken = 0;
+  std::atomic<std::size_t> from_front = 0;
+  std::atomic<std::size_t> from_back = 0;
+  std::atomic<unsigned> threads = 0;
+  const auto work = [&] {
+    const bool is_at_front = threads++ % 2 == 0;
+    while (taken++ < count) use(is_at_front ? from_front++ : count - 1 - from_back++);
+  };
+  if (workers && count > 1) {
+    workers(work);
+  } else {
+    work();
+  }
+}
+
 std::vector<SweepOutcome> Stock::apply(std::span<const Sweep> sweeps, const Workers& workers) {
   std::vector<SweepOutcome> outcomes;
   outcomes.reserve(sweeps.size());
@@ -255,12 +271,7 @@ std::vector<SweepOutcome> Stock::apply_together(std::span<const Sweep> sweeps, c
     pointer = std::move(changed);
   };
 
-  // Those with much to do first, so that all threads end about together.
-  std::vector<TileIndex> by_work(bins.tiles().begin(), bins.tiles().end());
-  std::stable_sort(by_work.begin(), by_work.end(), [&](const TileIndex& one, const TileIndex& other) {
-    return bins.units_of(one).size() > bins.units_of(other).size();
-  });
-  for_each_number(workers, by_work.size(), [&](std::size_t i) { work_on(by_work[i]); });
+  for_each_number(workers, bins.tiles().size(), [&](std::size_t i) { work_on(bins.tiles()[i]); });
 
   // In the order of the tiles, whichever thread was at them.
   for (const TileIndex& index : bins.tiles()) {

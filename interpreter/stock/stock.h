@@ -10,9 +10,18 @@
 
 #include "interpreter/stock/blank.h"
 #include "interpreter/stock/sweep.h"
-#include "interpreter/stock/workers.h"
 
 namespace isocnc::stock {
+
+/// Runs `work` on one or several threads at once, and returns when all have ended.
+using Workers = std::function<void(const std::function<void()>& work)>;
+
+/// Calls `use` once with each number below `count`, on the caller's thread or,
+/// if there are workers and more than one number, on theirs. They come from
+/// both ends: where numbers mean about the same at each call, as neighboring
+/// parts of a workpiece do, most threads come back to what they have had, and
+/// its memory is near them.
+void for_each_number(const Workers& workers, std::size_t count, const std::function<void(std::size_t number)>& use);
 
 /// Which tile: its column and row.
 struct TileIndex {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "interpreter/chords/revolved_column.h"
+#include "interpreter/stock/stock.h"
 #include "interpreter/stock/sweep.h"
 #include "interpreter/stock/swept_piece.h"
 #include "interpreter/stock/upright_sweep.h"
-#include "interpreter/stock/workers.h"
 
 namespace isocnc::stock {
 

@@ -255,17 +255,18 @@ VerifiedRun verified_run(std::string_view text, running::RunOptions options, con
   if (!scene) return {.outcome = simulation::outcome_of_run(text, std::move(options), machine)};
   simulation::RunFindings findings(machine);
   Verifier verifier(*scene, machine, first_workpiece_origin(text, options), std::move(work_together), material);
-  simulation::Timing timing(machine,
-                            {.event =
-                                 [&](const simulation::TimedEvent& timed) {
-                                   if (timed.move) {
-                                     kinematics::MadeMove made(machine.motion, *timed.move);
-                                     findings.take(timed.event, made);
-                                   }
-                                   verifier.take(timed);
-                                 },
-                             .stretch = [&](const motion::Stretch& stretch,
-                                            const simulation::TimedEvent& timed) { verifier.take(stretch, timed); }});
+  simulation::Timing timing(machine, {.event =
+                                          [&](const simulation::TimedEvent& timed) {
+                                            if (timed.move) {
+                                              kinematics::MadeMove made(machine.motion, *timed.move);
+                                              findings.take(timed.event, made);
+                                            }
+                                            verifier.take(timed);
+                                          },
+                                      .stretch =
+                                          [&](const motion::Stretch& stretch, const simulation::TimedEvent& timed) {
+                                            verifier.take(stretch, removal::MotionFacts(timed));
+                                          }});
   simulation::Compensation compensation(machine);
   const simulation::Compensation::Listeners compensated{
       .event = [&](const running::Event& event) { timing.take(event); },

@@ -17,7 +17,7 @@ using geometry::Vec3;
 /// that the result is the same however many threads there are.
 static constexpr std::size_t kPart = 1024;
 /// Stretches that wait at most.
-static constexpr std::size_t kBatch = 16 * kPart;
+static constexpr std::size_t kBatch = 4 * kPart;
 
 Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, const Vec3& origin,
                    WorkTogether work_together, const MaterialOptions& material)
@@ -47,12 +47,12 @@ Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, 
   material_.emplace(*std::move(workpiece), machine, work_together_);
 }
 
-void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
+void Verifier::take(const motion::Stretch& stretch, const removal::MotionFacts& motion) {
   if (stretch.ends_move) ++certificate_.motions;
-  if (!is_place_known_ && event.is_at_known_place()) arrive_at_known_place();
+  if (!is_place_known_ && motion.is_at_known_place) arrive_at_known_place();
   stretches_.push_back(stretch);
-  waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1, .is_in_inches = event.event.is_in_inches});
-  if (material_) material_->take(stretch, event, frames_.back());
+  waiting_.push_back({.line = motion.line, .frame = frames_.size() - 1, .is_in_inches = motion.is_in_inches});
+  if (material_) material_->take(stretch, motion, frames_.back());
   if (stretches_.size() == kBatch) examine_waiting();
 }
 
@@ -65,6 +65,10 @@ void Verifier::take(const simulation::TimedEvent& event) {
     is_unknown_before_ = event.unknown_offset && !event.unknown_offset->along.isZero(0);
   }
   if (material_) material_->take(event);
+}
+
+void Verifier::take_end(const removal::MotionFacts& motion, double time) {
+  if (material_) material_->take_end(motion, time);
 }
 
 MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool,

@@ -23,10 +23,12 @@ class Verifier {
   Verifier(const Scene& scene, const simulation::TimedMachine& machine, const geometry::Vec3& origin,
            WorkTogether work_together = {}, const MaterialOptions& material = {});
 
-  /// Takes a stretch of motion, with its event.
-  void take(const motion::Stretch& stretch, const simulation::TimedEvent& event);
+  /// Takes a stretch of a motion.
+  void take(const motion::Stretch& stretch, const removal::MotionFacts& motion);
   /// Takes an event that has been made.
   void take(const simulation::TimedEvent& event);
+  /// Takes the end of a motion, seconds: what there is to know of the event of one between known places.
+  void take_end(const removal::MotionFacts& motion, double time);
   /// Ends the run.
   void finish();
 

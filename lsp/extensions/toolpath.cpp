@@ -94,7 +94,7 @@ std::string ToolpathTask::compute(const std::function<bool()>& stop) {
                          .stretch =
                              [&](const motion::Stretch& stretch, const simulation::TimedEvent& timed) {
                                path.add(stretch);
-                               if (verifier) verifier->take(stretch, timed);
+                               if (verifier) verifier->take(stretch, removal::MotionFacts(timed));
                              }});
   verification::VerifiedRun verified;
   if (verifier) verified = verification::verified_outcome({}, *verifier, program.text(), result);

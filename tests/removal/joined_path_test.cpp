@@ -25,7 +25,8 @@ TipPath turn(const AxisPlacement& from, const AxisPlacement& to) {
   return {.path = stock::TurningPath{from, to}, .reach = 40};
 }
 
-/// Whether one piece stands for two lines, of which the first ends at a point near the middle.
+/// Whether one piece stands for two lines, of which the first ends at a point
+/// near the middle.
 bool joins_at(const Vec3& middle, const Vec3& axis = {0, 0, 1}) {
   JoinedPath path(line({0, 0, 0}, middle, axis));
   return path.add(line(middle, {2, 0, 0}, axis), kTolerance);
@@ -83,6 +84,12 @@ TEST(JoinedPath, ArcsStayAlone) {
   EXPECT_FALSE(after_arc.add(line(end_of(arc.path), end_of(arc.path) + Vec3(0, 0.001, 0)), kTolerance));
 }
 
+/// The tool may matter higher up on the line than at its end, where the axis turns.
+TEST(JoinedPath, ALineAtRestStaysApartFromATurn) {
+  JoinedPath path(line({0, 0, -20}, {0, 0, 0}));
+  EXPECT_FALSE(path.add(turn({{0, 0, 0}, {0, 0, 1}}, {{0, 0, 0.1}, Vec3(1e-4, 0, 1).normalized()}), kTolerance));
+}
+
 TEST(JoinedPath, TheAxisStraysTheMoreTheFartherFromTheTip) {
   const auto joins = [](double reach, double sine) {
     const auto tilted = [](double x) { return Vec3(x, 0, std::sqrt(1 - x * x)); };
@@ -112,8 +119,9 @@ AxisPlacement between(const AxisPlacement& from, const AxisPlacement& to, double
           Vec3(from.axis + share * (to.axis - from.axis)).normalized()};
 }
 
-/// By how much a point of the tool, at most `reach` from the tip, is farther from its place than on the way between two
-/// placements where it is nearest. What is to be least has one valley.
+/// By how much a point of the tool, at most `reach` from the tip, is farther
+/// from its place than on the way between two placements where it is nearest.
+/// What is to be least has one valley.
 double stray_from(const AxisPlacement& at, const AxisPlacement& from, const AxisPlacement& to, double reach) {
   const auto stray = [&](double share) {
     const AxisPlacement there = between(from, to, share);
@@ -147,8 +155,8 @@ double farthest(const std::vector<AxisPlacement>& way, const std::vector<AxisPla
   return most;
 }
 
-/// Wherever the tool is on the pieces, it is somewhere on the one that stands for them within the tolerance, and the
-/// other way round.
+/// Wherever the tool is on the pieces, it is somewhere on the one that stands
+/// for them within the tolerance, and the other way round.
 TEST(JoinedPath, NoPointOfTheToolStraysByMore) {
   int joined = 0;
   int alone = 0;

@@ -6,13 +6,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "interpreter/stock/stock_file.h"
 #include "interpreter/verification/verification_report.h"
-#include "interpreter/verification/verifier.h"
+#include "interpreter/verification/verifier_queue.h"
 #include "tests/support/random.h"
 #include "tests/support/threads.h"
 #include "tests/verification/scenes.h"
@@ -24,8 +25,8 @@ using dialect::Language;
 using kinematics::MachineKind;
 using std::numbers::pi;
 
-/// A block of 100 x 100 x 40 mm, its upper face at Z40, and the tool T101001: a flat cutter of radius 10 and length 60
-/// in a holder of diameter 50.
+/// A block of 100 x 100 x 40 mm, its upper face at Z40, and the tool T101001: a
+/// flat cutter of radius 10 and length 60 in a holder of diameter 50.
 struct Bench : Shop {
   explicit Bench(MachineKind kind = MachineKind::ThreeAxis) : Shop(kind) {
     scene.nose.reset();
@@ -59,7 +60,8 @@ std::vector<simulation::RunFinding> findings_with(const VerifiedRun& run, std::s
   return found;
 }
 
-/// `E150 5 40.00 @ 350 150 30`: code, line from 1, depth or distance, place in the frame in force.
+/// `E150 5 40.00 @ 350 150 30`: code, line from 1, depth or distance, place in
+/// the frame in force.
 std::vector<std::string> told(const VerifiedRun& run) {
   std::vector<std::string> all;
   for (const Contact& each : run.contacts) {
@@ -76,7 +78,8 @@ using Lines = std::vector<std::string>;
 double removed(const VerifiedRun& run) { return run.material->blank_volume - run.material->stock.volume(); }
 
 TEST(Material, SlotsHaveTheVolumeOfTheirClosedForm) {
-  // A stadium of radius 10 whose ends are 40 mm apart, 5 mm deep, at eight angles.
+  // A stadium of radius 10 whose ends are 40 mm apart, 5 mm deep, at eight
+  // angles.
   for (int i = 0; i < 8; ++i) {
     const double angle = i * pi / 8 + 0.1;
     const double x = 20 * std::cos(angle);
@@ -102,10 +105,12 @@ TEST(Material, RapidsThroughIt) {
   EXPECT_EQ(told(Bench().cut("G00 X250 Y89.9 Z50\nZ5\nX500\nZ50\n")), Lines());
 }
 
-/// After a tool whose length is not known it is not known where the next one is, until Z has a coordinate.
+/// After a tool whose length is not known it is not known where the next one
+/// is, until Z has a coordinate.
 TEST(Material, IsNotMetWhereItIsNotKnownWhereTheToolIs) {
   const VerifiedRun run = Bench().run(
-      "M06 T101002\nG00 X250 Y150 Z20\nM06 T101001\nS12000 M03\nG00 X500\nX350\nZ50\n"
+      "M06 T101002\nG00 X250 Y150 Z20\nM06 T101001\nS12000 "
+      "M03\nG00 X500\nX350\nZ50\n"
       "G01 Z30 F1000\nG00 Z50\nM02\n");
   EXPECT_EQ(told(run), Lines());
   const double exact = pi * 100 * 10;
@@ -125,7 +130,8 @@ TEST(Material, RapidsGoWhereTheirJointsLeadThem) {
   EXPECT_EQ(told(bench.cut(down)), Lines{"E150 4 35.0 Z40.0"});
 }
 
-/// However many phases a rapid has: its depth is that below the material before all of it.
+/// However many phases a rapid has: its depth is that below the material before
+/// all of it.
 TEST(Material, RapidsInPhasesAreAsDeepAsTheyGo) {
   Bench bench;
   for (const auto motion : {kinematics::RapidMotion::Interpolated, kinematics::RapidMotion::Independent})
@@ -153,7 +159,8 @@ TEST(Material, RapidsAndStoppedSpindlesAreFoundOnShortMotions) {
   // The same as in one motion, to within a dexel.
   const VerifiedRun one = Bench().cut("G00 X286 Y150 Z50\nZ5\nX320\nZ50\n");
   EXPECT_NEAR(removed(rapids), removed(one), 0.02 * removed(one));
-  // Down in steps, too: each goes as deep as it is long, and what would have been enough is above all of them.
+  // Down in steps, too: each goes as deep as it is long, and what would have
+  // been enough is above all of them.
   std::string down = "G00 X350 Y150 Z40\n";
   for (double z = 39.95; z > 35; z -= 0.05) down += fmt::format("Z{:.2f}\n", z);
   const VerifiedRun plunge = Bench().cut(down + "Z50\n");
@@ -168,9 +175,13 @@ TEST(Material, RapidsAndStoppedSpindlesAreFoundOnShortMotions) {
 TEST(Material, RapidsThroughWhatIsCutMeetNothing) {
   // Back through a slot, an arc, a ramp and a rounded corner, out of a hole.
   EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z30 F1000\nX380\nG00 X320\nZ50\n")), Lines());
-  EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z30 F1000\nG02 X380 Y150 I350 J150\nG00 Z50\n")), Lines());
+  EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z30 F1000\nG02 X380 Y150 "
+                             "I350 J150\nG00 Z50\n")),
+            Lines());
   EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z40 F1000\nX380 Z25\nG00 X320 Z40\nZ50\n")), Lines());
-  EXPECT_EQ(told(Bench().cut("G48\nG00 X320 Y120 Z50\nG01 Z30 F9000\nX380\nY180\nX320\nG00 Z50\n")), Lines());
+  EXPECT_EQ(told(Bench().cut("G48\nG00 X320 Y120 Z50\nG01 Z30 "
+                             "F9000\nX380\nY180\nX320\nG00 Z50\n")),
+            Lines());
   EXPECT_EQ(told(Bench().cut("G00 X350 Y150 Z50\nG01 Z10 F1000\nG00 Z50\n")), Lines());
 }
 
@@ -220,7 +231,9 @@ TEST(Material, AHolderThatGoesMuchDeeperIsToldThereAsWell) {
   Bench bench;
   bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::flat_body(10, 20));
   bench.set_holder(20);
-  const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\nG01 Z19.8 F1000\nX352 Z19.7\nX354 Z10\nX356\nG00 Z50\n");
+  const VerifiedRun run = bench.cut(
+      "G00 X350 Y150 Z50\nG01 Z19.8 F1000\nX352 "
+      "Z19.7\nX354 Z10\nX356\nG00 Z50\n");
   std::vector<std::size_t> lines;
   for (const simulation::RunFinding& each : findings_with(run, "E151")) lines.push_back(each.line + 1);
   EXPECT_EQ(lines, (std::vector<std::size_t>{4, 6}));
@@ -230,7 +243,8 @@ TEST(Material, AHolderThatGoesMuchDeeperIsToldThereAsWell) {
 TEST(Material, ShankAndHolderAreOneContact) {
   Bench bench;
   bench.set_tool(10, 10, {.height = 15, .lower_diameter = 12, .upper_diameter = 12});
-  // Down, the holder goes 3 mm deep; across, the shank meets the 15 mm between cutter and holder.
+  // Down, the holder goes 3 mm deep; across, the shank meets the 15 mm between
+  // cutter and holder.
   const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\nG01 Z12 F1000\nX370\nG00 Z50\n");
   const auto of_body = std::find_if(run.contacts.begin(), run.contacts.end(),
                                     [](const Contact& each) { return dialect::definition(each.id).code == "E151"; });
@@ -257,7 +271,8 @@ TEST(Material, APartThatFollowsIsToldWithItsOwnDepth) {
   EXPECT_EQ(bodies, (Lines{"5 the shank of T101001 13.0", "6 the holder of T101001 0.5"}));
 }
 
-/// A short shank meets on each motion what it passes: on the way up all that it has passed before.
+/// A short shank meets on each motion what it passes: on the way up all that it
+/// has passed before.
 TEST(Material, AWayOutIsNoDeeperThanTheWayIn) {
   Bench bench;
   bench.set_tool(3, 8, {.height = 7, .lower_diameter = 12, .upper_diameter = 12});
@@ -297,21 +312,25 @@ TEST(Material, ARapidOutOfWhereTheShankIsBelongsToItsContact) {
 
 TEST(Material, HolderOverWhatIsCutAway) {
   // The same depth, where the block has been lowered before.
-  EXPECT_EQ(told(Bench().cut(
-                "G00 X250 Y100 Z50\nG01 Z30 F9000\nX450\nY110\nX250\nY120\nX450\nY130\nX250\nY140\nX450\nY150\n"
-                "X250\nY160\nX450\nY170\nX250\nY180\nX450\nY190\nX250\nY200\nX450\nG00 Z50\nX350 Y150\nG01 Z-25 F1000\n"
-                "G00 Z50\n")),
+  EXPECT_EQ(told(Bench().cut("G00 X250 Y100 Z50\nG01 Z30 "
+                             "F9000\nX450\nY110\nX250\nY120\nX450\nY130\nX250\nY140\nX450\nY150\n"
+                             "X250\nY160\nX450\nY170\nX250\nY180\nX450\nY190\nX250\nY200\nX450\nG0"
+                             "0 Z50\nX350 Y150\nG01 Z-25 F1000\n"
+                             "G00 Z50\n")),
             Lines());
 }
 
 TEST(Material, AHolderThatPloughsIsToldWhereItBegins) {
-  // The holder goes 5 mm deep into the block; the retract, in rapid, takes the cutter through where it was.
+  // The holder goes 5 mm deep into the block; the retract, in rapid, takes the
+  // cutter through where it was.
   const std::string plough = "G00 X350 Y150 Z50\nG01 Z-25 F1000\nX380\n";
   EXPECT_EQ(told(Bench().cut(plough + "G01 Z50\n")), Lines{"E151 4 5.0 Z-20.0"});
   EXPECT_EQ(told(Bench().cut(plough + "G00 Z50\n")), Lines{"E151 4 5.0 Z-20.0"});
-  // Farther into the block in rapid, the cutter meets what the holder does not, and Z is that of the cut.
+  // Farther into the block in rapid, the cutter meets what the holder does not,
+  // and Z is that of the cut.
   EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z-25 F1000\nG00 X360\nZ50\n")),
-            (Lines{"E151 4 5.0 Z-20.0", "E150 5 40.0"}));  // Raised on the rounded corner, in the holder's 5 mm, too.
+            (Lines{"E151 4 5.0 Z-20.0", "E150 5 40.0"}));  // Raised on the rounded corner, in the holder's
+                                                           // 5 mm, too.
   // Both begin with the same rapid: the cutter's tells all.
   EXPECT_EQ(told(Bench().cut("G00 X250 Y150 Z50\nZ-25\nX500\nZ50\n")), Lines{"E150 5 35.0 Z40.0"});
 }
@@ -323,8 +342,11 @@ TEST(Material, RoundedCornersLeaveLessThanTheProgramSays) {
     bench.machine.motion.corner_tolerance = tolerance;
     // Out of the end of a slot at an angle, and back to the bottom of a hole.
     EXPECT_EQ(told(bench.cut("G00 X320 Y130 Z50\nG01 Z34 F1000\nX350 Y150 F8000\nG00 Z50\n")), Lines());
-    EXPECT_EQ(told(bench.cut("G00 X330 Y150 Z50\nG01 Z35 F1000\nG00 Z43\nZ35\nG01 Z30\nG00 Z50\n")), Lines());
-    // A little more is found. The rapid turns back on a corner, too, which begins twice as far above its end.
+    EXPECT_EQ(told(bench.cut("G00 X330 Y150 Z50\nG01 Z35 F1000\nG00 "
+                             "Z43\nZ35\nG01 Z30\nG00 Z50\n")),
+              Lines());
+    // A little more is found. The rapid turns back on a corner, too, which
+    // begins twice as far above its end.
     const std::string below = fmt::format("G00 Z43\nZ{:.2f}\nZ50\n", 35 - 0.06 - 3 * tolerance);
     EXPECT_EQ(told(bench.cut("G00 X330 Y150 Z50\nG01 Z35 F1000\n" + below)).size(), 1u) << tolerance;
   }
@@ -339,7 +361,8 @@ TEST(Material, AToolThatIsMountedInIt) {
   const std::string after = "S9000 M03\nG01 X380 F1000\nG00 Z50\n";
   EXPECT_EQ(told(bench.cut(before + "M06 T101002\n" + after)), Lines{"E150 7 10.0"});
   EXPECT_EQ(told(bench.cut(before + "M06 T101001\n" + after)), Lines());
-  // Beside the block, the longer tool brings its holder lower: not into it. A shorter cutter brings it there.
+  // Beside the block, the longer tool brings its holder lower: not into it. A
+  // shorter cutter brings it there.
   bench.scene.tools[kLonger].length = bench.machine.tool_lengths[kLonger] = 100;
   bench.scene.tools[kLonger].cutter = Shop::body(solids::flat_body(10, 50));
   const solids::StackRow holder{.height = 50, .lower_diameter = 50, .upper_diameter = 50};
@@ -348,7 +371,8 @@ TEST(Material, AToolThatIsMountedInIt) {
 }
 
 TEST(Material, WhereNoHeightHelpsNoneIsTold) {
-  // Up out of the material with a wider tool above the slot's bottom, and sideways from where a cut has ended.
+  // Up out of the material with a wider tool above the slot's bottom, and
+  // sideways from where a cut has ended.
   Bench bench;
   bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::disc_body(10, 4));
   bench.scene.tools[Shop::kTool].holder.reset();
@@ -361,16 +385,20 @@ TEST(Material, WhereNoHeightHelpsNoneIsTold) {
 TEST(Material, SpindleStopped) {
   const auto stopped = [](const std::string& program) { return told(Bench().run(program)); };
   EXPECT_EQ(stopped("M06 T101001\nG00 X350 Y150 Z50\nG01 Z35 F1000\nG00 Z50\nM02\n"), Lines{"E158 3 5.0"});
-  EXPECT_EQ(stopped("M06 T101001\nS9000 M03\nG00 X350 Y150 Z50\nG01 Z35 F1000\nM05\nX370\nG00 Z50\nM02\n"),
+  EXPECT_EQ(stopped("M06 T101001\nS9000 M03\nG00 X350 Y150 Z50\nG01 Z35 "
+                    "F1000\nM05\nX370\nG00 Z50\nM02\n"),
             Lines{"E158 6 5.0"});
   // It stands, but cuts nothing.
   EXPECT_EQ(stopped("M06 T101001\nG00 X350 Y150 Z50\nG01 Z40 F1000\nG00 Z50\nM02\n"), Lines());
-  EXPECT_EQ(stopped("M06 T101001\nS9000 M04\nG00 X350 Y150 Z50\nG01 Z35 F1000\nG00 Z50\nM02\n"), Lines());
+  EXPECT_EQ(stopped("M06 T101001\nS9000 M04\nG00 X350 Y150 Z50\nG01 Z35 "
+                    "F1000\nG00 Z50\nM02\n"),
+            Lines());
 }
 
 TEST(Material, OneStoppedSpindleIsOneMistake) {
-  const VerifiedRun run =
-      Bench().run("M06 T101001\nG00 X320 Y150 Z50\nG01 Z35 F1000\nG00 Z50\nX370\nG01 Z35\nG00 Z50\nM02\n");
+  const VerifiedRun run = Bench().run(
+      "M06 T101001\nG00 X320 Y150 Z50\nG01 Z35 F1000\nG00 "
+      "Z50\nX370\nG01 Z35\nG00 Z50\nM02\n");
   ASSERT_EQ(run.contacts.size(), 2u);
   EXPECT_EQ(run.contacts[0].mistake, run.contacts[1].mistake);
 }
@@ -379,7 +407,9 @@ TEST(Material, DeeperThanTheToolAllows) {
   Bench bench;
   bench.scene.tools[Shop::kTool].max_depth = 8;
   EXPECT_EQ(told(bench.cut("G00 X250 Y150 Z50\nG01 Z31.9 F1000\nX450\nG00 Z50\n")), Lines{"W157 5 8.1"});
-  EXPECT_EQ(told(bench.cut("G00 X250 Y150 Z50\nG01 Z32.1 F1000\nX450\nG01 Z25\nX250\nG00 Z50\n")), Lines());
+  EXPECT_EQ(told(bench.cut("G00 X250 Y150 Z50\nG01 Z32.1 F1000\nX450\nG01 "
+                           "Z25\nX250\nG00 Z50\n")),
+            Lines());
 }
 
 TEST(Material, WallsThatWereCutBeforeAreNoDeepCut) {
@@ -404,7 +434,8 @@ TEST(Material, WallsThatWereCutBeforeAreNoDeepCut) {
     std::string ramps;
     for (int level = 1; level <= 6; ++level)
       ramps += fmt::format("X{} Y{} Z{}\n", level % 2 == 1 ? 333 : 363.007, level % 2 == 1 ? 130 : 150, 40 - 3 * level);
-    // Back and forth on a ramp, each pass is up to twice as deep as the way is high.
+    // Back and forth on a ramp, each pass is up to twice as deep as the way is
+    // high.
     is_free(ramps + "X333 Y130\nX363.007 Y150\n", 6);
     // Three levels, and a pass along the wall that takes 0.1 mm.
     std::string walls;
@@ -420,7 +451,8 @@ TEST(Material, WallsThatWereCutBeforeAreNoDeepCutWhileTheAxisTurns) {
   bench.scene.tools[Shop::kTool].max_depth = 8;
   std::string walls = "G49\n";
   for (const int z : {34, 28, 22}) walls += fmt::format("G00 Z50\nX250 Y150 B0 C0\nZ{}\nG01 X450 F3000\n", z);
-  // Along the wall, 0.1 mm farther, while B turns a little about Y, in the plane of the way.
+  // Along the wall, 0.1 mm farther, while B turns a little about Y, in the
+  // plane of the way.
   const VerifiedRun pass = bench.cut(walls + "G00 Z50\nX250 Y150.1\nZ22.2\nG01 X450 B0.5 F3000\nG00 Z50 B0\n");
   EXPECT_EQ(told(pass), Lines());
   // 2 mm of it are a deep cut.
@@ -538,7 +570,8 @@ TEST(Material, PiecesThatNothingHolds) {
   EXPECT_EQ(told(Bench().cut(around + "Y120\nG00 Z50\n")), Lines());
 }
 
-/// As many motions as several batches hold, each a little deeper than those before, with tools in between.
+/// As many motions as several batches hold, each a little deeper than those
+/// before, with tools in between.
 TEST(Material, ThreadsChangeNothing) {
   constexpr int kMotions = 9000;
   support::Random random(3);
@@ -566,26 +599,36 @@ TEST(Material, ThreadsChangeNothing) {
   EXPECT_TRUE(all_of(support::on_threads(3)) == alone);
 }
 
-/// What a run with a head finds and leaves, while somebody looks at the stock at moments, also within motions.
-std::vector<std::string> told_while_watched(const std::string& program, double interval) {
+/// How a run of a machine with a head is listened to.
+struct Listening {
+  double interval = 0;  ///< Of the moments at which somebody looks at the stock,
+                        ///< s; 0 for none.
+  Alongside alongside = {};
+  WorkTogether together = {};
+};
+
+/// What the run finds and leaves.
+std::vector<std::string> told_to(const Listening& listening, const std::string& program) {
   Bench bench(MachineKind::Head);
   running::RunOptions options;
   options.setup.home = bench.machine.home;
-  Verifier verifier(bench.scene, bench.machine, geometry::Vec3::Zero());
+  Verifier verifier(bench.scene, bench.machine, geometry::Vec3::Zero(), listening.together);
   int looks = 0;
-  if (interval > 0)
+  if (listening.interval > 0)
     verifier.material()->watch([&](const stock::Stock&, double time) {
       ++looks;
-      return time + interval;
+      return time + listening.interval;
     });
+  VerifierQueue queue(verifier, listening.alongside);
   simulation::Timing timing(bench.machine,
-                            {.event = [&](const simulation::TimedEvent& timed) { verifier.take(timed); },
+                            {.event = [&](const simulation::TimedEvent& timed) { queue.take(timed); },
                              .stretch = [&](const motion::Stretch& stretch,
-                                            const simulation::TimedEvent& timed) { verifier.take(stretch, timed); }});
+                                            const simulation::TimedEvent& timed) { queue.take(stretch, timed); }});
   running::run(program, options, [&](const running::Event& event) { timing.take(event); });
   timing.finish();
+  queue.finish();
   verifier.finish();
-  EXPECT_EQ(looks > 100, interval > 0);
+  EXPECT_EQ(looks > 100, listening.interval > 0);
   std::vector<std::string> all;
   for (const Contact& each : verifier.contacts())
     all.push_back(fmt::format("{} {} {} {}", dialect::definition(each.id).code, each.line, each.distance, each.time));
@@ -595,25 +638,55 @@ std::vector<std::string> told_while_watched(const std::string& program, double i
   return all;
 }
 
-/// Pieces of a motion are cut at once, whoever looks meanwhile.
-TEST(Material, WhoLooksMeanwhileChangesNothing) {
+/// Short motions that turn the axis, with a rapid now and then.
+std::string walk_in_four_axes(int motions) {
   support::Random random(7);
   std::string program = "M06 T101001\nS12000 M03\nG49\nG00 X300 Y150 Z50 B10 C0\nG01 Z38 F2000\n";
   double heading = 0;
   double x = 300;
   double y = 150;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < motions; ++i) {
     heading += random.real(-0.1, 0.15);
     x += std::cos(heading);
     y += std::sin(heading);
+    if (i % 1500 == 1499) program += "G00 Z60\nM05\nM06 T101001\nS9000 M03\nG90 G00 Z39\n";
     program += fmt::format("{} X{:.3f} Y{:.3f} Z{:.3f} B{:.3f}\n", i % 100 == 99 ? "G00" : "G01", x, y,
                            38 + random.real(-0.05, 0.05), 10 + random.real(-0.1, 0.1));
   }
-  program += "M02\n";
-  const std::vector<std::string> alone = told_while_watched(program, 0);
+  return program + "M02\n";
+}
+
+/// Pieces of a motion are cut at once, whoever looks meanwhile.
+TEST(Material, WhoLooksMeanwhileChangesNothing) {
+  const std::string program = walk_in_four_axes(600);
+  const std::vector<std::string> alone = told_to({}, program);
   EXPECT_GT(alone.size(), 300u);
-  EXPECT_TRUE(told_while_watched(program, 0.05) == alone);
-  EXPECT_TRUE(told_while_watched(program, 0.003) == alone);
+  EXPECT_TRUE(told_to({.interval = 0.05}, program) == alone);
+  EXPECT_TRUE(told_to({.interval = 0.003}, program) == alone);
+}
+
+/// A full circle is two pieces of one stretch: the first one cuts, and the second one, past the block, may be open when
+/// somebody looks.
+TEST(Material, WhoLooksWithinACircleChangesNothing) {
+  std::string program = "M06 T101001\nS12000 M03\nG00 X315 Y100 Z50 B0 C0\n";
+  for (int i = 0; i < 10; ++i) program += fmt::format("G01 Z{} F4000\nG02 X315 Y100 I350 J100 F4000\n", 39 - i);
+  program += "M02\n";
+  const std::vector<std::string> alone = told_to({}, program);
+  EXPECT_TRUE(told_to({.interval = 0.01}, program) == alone);
+  EXPECT_TRUE(told_to({.interval = 0.003}, program) == alone);
+}
+
+TEST(Material, VerifyingWhileTheRunGoesOnChangesNothing) {
+  const std::string program = walk_in_four_axes(9000);
+  const std::vector<std::string> alone = told_to({}, program);
+  std::thread thread;
+  const auto wait = [&] {
+    if (thread.joinable()) thread.join();
+  };
+  const Alongside alongside{.start = [&](const std::function<void()>& task) { thread = std::thread(task); },
+                            .wait = wait};
+  EXPECT_TRUE(told_to({.alongside = alongside}, program) == alone);
+  EXPECT_TRUE(told_to({.alongside = alongside, .together = support::on_threads(2)}, program) == alone);
 }
 
 TEST(Material, TiltedToolsCutTheVolumeOfTheirClosedForm) {
@@ -632,10 +705,13 @@ TEST(Material, TiltedToolsCutTheVolumeOfTheirClosedForm) {
 }
 
 TEST(Material, ToolsThatLie) {
-  // A slot of 15 mm into the front face, at half its height, and a rapid 10 mm into it.
+  // A slot of 15 mm into the front face, at half its height, and a rapid 10 mm
+  // into it.
   Bench bench(MachineKind::Head);
   bench.scene.tools[Shop::kTool].cutter = Shop::body(solids::flat_body(8, 60));
-  const std::string side = "G00 X350 Y-100 Z20 B0 C0\nB90 C-90\nG29 X300 Y100 Z40 C-90 B90\nG00 X20 Y30 Z50\n";
+  const std::string side =
+      "G00 X350 Y-100 Z20 B0 C0\nB90 C-90\nG29 X300 Y100 "
+      "Z40 C-90 B90\nG00 X20 Y30 Z50\n";
   const VerifiedRun slot = bench.cut(side + "Z5\nG01 Z-15 F1000\nY70\nG00 Z50\n");
   EXPECT_EQ(told(slot), Lines());
   ASSERT_EQ(slot.material->by_tool.size(), 1u);
@@ -650,7 +726,8 @@ TEST(Material, ToolsThatLie) {
 }
 
 TEST(Material, ALyingToolIsAsDeepAsItMustRise) {
-  // The tip goes 50 mm into the side of the block. The tool lies along X, its lower edge 30 and 40 mm below the face.
+  // The tip goes 50 mm into the side of the block. The tool lies along X, its
+  // lower edge 30 and 40 mm below the face.
   Bench bench(MachineKind::Head);
   bench.scene.tools[Shop::kTool].holder.reset();
   const std::string beside = "G00 X450 Y150 Z200 B90 C0\n";
@@ -665,7 +742,9 @@ TEST(Material, AShankThatRubsOnALyingToolToldByItsDepth) {
   tool.cutter = Shop::body(solids::flat_body(8, 20));
   const solids::FormPoint points[] = {{20, 8}, {60, 8}};
   tool.shank = Shop::body(solids::form_body(points));
-  const std::string side = "G00 X350 Y-100 Z20 B0 C0\nB90 C-90\nG29 X300 Y100 Z40 C-90 B90\nG00 X20 Y30 Z50\n";
+  const std::string side =
+      "G00 X350 Y-100 Z20 B0 C0\nB90 C-90\nG29 X300 Y100 "
+      "Z40 C-90 B90\nG00 X20 Y30 Z50\n";
   const VerifiedRun run = bench.cut(side + "G01 Z-15 F1000\nZ-25\nG00 Z50\n");
   ASSERT_EQ(run.contacts.size(), 1u);
   EXPECT_TRUE(run.contacts[0].is_of_edge);

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "interpreter/verification/verifier.h"
+
+namespace isocnc::verification {
+
+/// How work is done while its caller goes on.
+struct Alongside {
+  std::function<void(std::function<void()> task)> start;  ///< One task at a time.
+  std::function<void()> wait;                             ///< Returns when it has ended.
+};
+
+/// Passes what a run tells to a verifier, in its order, while the run goes on.
+class VerifierQueue {
+ public:
+  /// Refers to the verifier. Without `alongside`, passes everything at once.
+  explicit VerifierQueue(Verifier& verifier, Alongside alongside = {});
+
+  /// Takes a stretch of motion, with its event.
+  void take(const motion::Stretch& stretch, const simulation::TimedEvent& event);
+  /// Takes an event that has been made.
+  void take(const simulation::TimedEvent& event);
+  /// Returns when the verifier has taken everything.
+  void finish();
+
+ private:
+  enum class Kind : std::uint8_t { Stretch, End, Event };
+
+  /// The end of a motion.
+  struct EndOfMotion {
+    removal::MotionFacts motion;
+    double time = 0;
+  };
+
+  /// What waits, by its kind: most is stretches, and events take much memory.
+  struct Delivery {
+    std::vector<Kind> order;
+    std::vector<motion::Stretch> stretches;
+    std::vector<removal::MotionFacts> motions;  ///< Of the stretches.
+    std::vector<EndOfMotion> ends;
+    std::vector<simulation::TimedEvent> events;
+  };
+
+  void pass(Delivery& delivery);
+  void hand_over();
+
+  Verifier& verifier_;
+  Alongside alongside_;
+  Delivery filling_;
+  Delivery passing_;
+};
+
+}  // namespace isocnc::verification
