@@ -6,18 +6,23 @@
 
 namespace isocnc::check {
 
+/// Threads that do the work, at most `count`; those that the system gives suffice.
+static std::vector<std::thread> start_threads(int count, const std::function<void()>& work) {
+  std::vector<std::thread> threads;
+  try {
+    while (static_cast<int>(threads.size()) < count) threads.emplace_back([work]() noexcept { work(); });
+  } catch (const std::system_error&) {
+  }
+  return threads;
+}
+
 void side_by_side(int workers, const std::function<void()>& work) {
   if (workers <= 1) {
     work();
     return;
   }
-  const auto work_or_end = [&work]() noexcept { work(); };
-  std::vector<std::thread> helpers;
-  try {
-    while (static_cast<int>(helpers.size()) + 1 < workers) helpers.emplace_back(work_or_end);
-  } catch (const std::system_error&) {  // The threads already started suffice.
-  }
-  work_or_end();
+  std::vector<std::thread> helpers = start_threads(workers - 1, [&work] { work(); });
+  [&work]() noexcept { work(); }();
   for (std::thread& helper : helpers) helper.join();
 }
 
@@ -25,12 +30,7 @@ int processor_count() { return std::max(1, static_cast<int>(std::thread::hardwar
 
 void on_all_processors(const std::function<void()>& work) { side_by_side(processor_count(), work); }
 
-Crew::Crew(int size) {
-  try {
-    while (static_cast<int>(helpers_.size()) + 1 < size) helpers_.emplace_back([this]() noexcept { help(); });
-  } catch (const std::system_error&) {  // The threads already started suffice.
-  }
-}
+Crew::Crew(int size) : helpers_(start_threads(size - 1, [this] { help(); })) {}
 
 Crew::~Crew() {
   wait();

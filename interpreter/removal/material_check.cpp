@@ -148,10 +148,10 @@ SweepSetting MaterialCheck::setting() const {
 /// Shows the moments before the last stretch that waits, and those within it. What is cut up to a moment within it is
 /// cut from a copy, so that the stock itself does not depend on when somebody looks.
 void MaterialCheck::show_moments() {
+  const double end = waiting_.back().stretch.start + waiting_.back().stretch.duration;
+  if (next_moment_ > end) return;
   const UncutStretch last = waiting_.back();
   const motion::Stretch& stretch = last.stretch;
-  const double end = stretch.start + stretch.duration;
-  if (next_moment_ > end) return;
   waiting_.pop_back();
   cut_before_joined();
   std::vector<TipPath> pieces;
