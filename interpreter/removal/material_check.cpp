@@ -246,7 +246,7 @@ void MaterialCheck::cut_sweeps() {
       const SweepUse& use = sweeps_.uses()[i];
       if (use.role == Role::Cut || use.role == Role::Rest) account(i, outcomes[i]);
       if (use.role == Role::Cut && outcomes[i].meets())
-        std::fill(has_cut.begin() + use.first, has_cut.begin() + use.last + 1, true);
+        for (std::uint32_t stretch = use.first; stretch <= use.last; ++stretch) has_cut[stretch] = true;
       if (outcomes[i].meets()) look_at(i, outcomes[i]);
     }
     note_heights(has_cut);
