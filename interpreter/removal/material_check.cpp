@@ -46,7 +46,7 @@ MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine
 
 void MaterialCheck::mount(const execution::ToolCode& code, const CuttingTool& tool, const running::Event& event,
                           double time, const geometry::Frame& frame, bool is_place_known) {
-  cut_waiting();
+  finish_tool();
   close_all();
   if (!by_line_.empty()) look_for_loose_pieces();
   code_ = code;
@@ -132,7 +132,7 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const MotionFacts&
                       .is_in_inches = motion.is_in_inches,
                       .is_feed = motion.is_feed});
   if (watcher_) show_moments();
-  if (waiting_.size() >= kBatch) cut_before_joined();
+  if (waiting_.size() >= kBatch) cut_before_open();
 }
 
 SweepSetting MaterialCheck::setting() const {
@@ -153,7 +153,7 @@ void MaterialCheck::show_moments() {
   const UncutStretch last = waiting_.back();
   const motion::Stretch& stretch = last.stretch;
   waiting_.pop_back();
-  cut_before_joined();
+  cut_before_open();
   std::vector<TipPath> pieces;
   for (; next_moment_ <= end; has_cuts_to_show_ = false) {
     const double moment = next_moment_;
@@ -165,7 +165,7 @@ void MaterialCheck::show_moments() {
             .body = removing_cutter(*forms_, last.cutting), .path = path, .tag = static_cast<stock::CutTag>(last.line)};
         if (may_meet(setting(), *sweep.body, sweep.path)) is_cut = partial.apply({&sweep, 1}).front().meets() || is_cut;
       };
-      if (const auto open = sweeps_.open_path()) cut(open->second);
+      if (const auto open = sweeps_.open_part()) std::for_each(open->paths.begin(), open->paths.end(), cut);
       divide(setting(), last, stretch.parameter_at(moment), pieces);
       for (const TipPath& piece : pieces) cut(piece.path);
     }
@@ -220,12 +220,20 @@ void MaterialCheck::cut_waiting() {
   cut_sweeps();
 }
 
-/// Cuts what waits but for the stretches of which a sweep is being joined, so that the sweeps do not depend on when it
-/// is called.
-void MaterialCheck::cut_before_joined() {
+/// Cuts what waits, and the rest of what the mounted tool has passed through, before it goes.
+void MaterialCheck::finish_tool() {
+  cut_waiting();
+  if (!forms_) return;
+  const std::vector<Sweep> rest = sweeps_.take_rest(*forms_);
+  for (const SweepOutcome& outcome : stock_.apply(rest, workers_))
+    if (outcome.meets()) work_of_tool().removed.add({.volume = outcome.volume});
+}
+
+/// Cuts what waits but for the stretches whose sweeps wait for more of their motion, so that the sweeps do not depend
+/// on when it is called.
+void MaterialCheck::cut_before_open() {
   append_sweeps();
-  const auto open = sweeps_.open_path();
-  if (!open && forms_) sweeps_.append_rapid(setting(), waiting_);
+  const auto open = sweeps_.open_part();
   const auto first = waiting_.begin() + static_cast<std::ptrdiff_t>(open ? open->first : waiting_.size());
   std::vector<UncutStretch> kept(first, waiting_.end());
   waiting_.erase(first, waiting_.end());
@@ -306,6 +314,17 @@ static Removed removed_by(const SweepOutcome& outcome, const SweepPath& path, do
   return removed;
 }
 
+/// What the mounted tool has removed.
+RemovedByTool& MaterialCheck::work_of_tool() {
+  if (!tool_) {
+    const auto known =
+        std::find_if(by_tool_.begin(), by_tool_.end(), [&](const RemovedByTool& each) { return each.tool == code_; });
+    tool_ = static_cast<std::size_t>(known - by_tool_.begin());
+    if (known == by_tool_.end()) by_tool_.push_back({.tool = code_});
+  }
+  return by_tool_[*tool_];
+}
+
 /// Notes what a cut has removed.
 void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
   if (!outcome.meets()) return;
@@ -314,14 +333,8 @@ void MaterialCheck::account(std::size_t sweep, const SweepOutcome& outcome) {
   const Removed removed = use.role == Role::Rest ? Removed{.volume = outcome.volume}
                                                  : removed_by(outcome, sweeps_.sweeps()[sweep].path,
                                                               2 * sweeps_.sweeps()[sweep].body->maximum_radius());
-  if (!tool_) {
-    const auto known =
-        std::find_if(by_tool_.begin(), by_tool_.end(), [&](const RemovedByTool& each) { return each.tool == code_; });
-    tool_ = static_cast<std::size_t>(known - by_tool_.begin());
-    if (known == by_tool_.end()) by_tool_.push_back({.tool = code_});
-  }
   if (notes_stretches_) by_stretch_[by_stretch_.size() - waiting_.size() + use.last].add(removed);
-  RemovedByTool& tool = by_tool_[*tool_];
+  RemovedByTool& tool = work_of_tool();
   tool.removed.add(removed);
   if (use.role == Role::Rest) return;
   const double end_time = end_of_use(use);
@@ -845,7 +858,7 @@ std::vector<Incident> MaterialCheck::incidents_so_far() const {
 }
 
 void MaterialCheck::finish() {
-  cut_waiting();
+  finish_tool();
   if (watcher_ && has_cuts_to_show_) watcher_(stock_, last_time_);
   close_all();
   look_for_loose_pieces();

@@ -134,12 +134,14 @@ class MaterialCheck {
   Cutting cutting_of(bool is_feed) const;
   void append_sweeps();
   void cut_waiting();
-  void cut_before_joined();
+  void cut_before_open();
+  void finish_tool();
   void cut_sweeps();
   double from_of(const SweepUse& use, std::size_t stretch) const;
   double to_of(const SweepUse& use, std::size_t stretch) const;
   double start_of_use(const SweepUse& use) const;
   double end_of_use(const SweepUse& use) const;
+  RemovedByTool& work_of_tool();
   void account(std::size_t sweep, const stock::SweepOutcome& outcome);
   void look_at(std::size_t sweep, const stock::SweepOutcome& outcome);
   void touch(const IncidentKey& key, std::size_t sweep, const stock::SweepOutcome& outcome);

@@ -13,6 +13,8 @@ using Role = SweepRole;
 
 /// Ways on which nothing may be cut, of which the rest is removed later, at most.
 static constexpr std::size_t kMostPassed = 256;
+/// Pieces of a rapid that wait for its end, at most.
+static constexpr std::size_t kMostOfRapid = 4096;
 /// What is cut of a wall counts as a pass of its depth if it is wider than this part of the cutter's radius: what a
 /// finishing pass takes off a stepped wall does not.
 static constexpr double kRimShare = 0.1;
@@ -109,7 +111,7 @@ class MotionSweeps::SweepWriter {
     divide(setting_, stretch, stretch.to, pieces_);
     if (stretch.is_feed) append_rapid();
     if (!pieces_.empty()) append_pieces(stretch, index);
-    // An open path begins with a stretch, so that it is clear which ones may be cut before it.
+    // An open part begins with a stretch, so that it is clear which ones may be cut before it.
     if (all_.joined_ && all_.joined_->first == index && all_.joined_->from != stretch.from) append_joined();
     if (!(stretch.stretch.ends_move || stretch.is_standing)) return;
     append_joined();
@@ -151,6 +153,7 @@ class MotionSweeps::SweepWriter {
   void append_pieces(UncutStretch& stretch, std::size_t index) {
     stretch.travel = end_of(pieces_.back().path) - start_of(pieces_.front().path).origin;
     if (all_.joined_ && stretch.stretch.tag != all_.joined_->tag) append_joined();
+    if (all_.rapid_.size() >= kMostOfRapid) append_rapid();
     const bool is_in_phases = !stretch.is_feed && setting_.asks;
     for (const TipPath& piece : pieces_) {
       stretch.length += length_of(piece.path);
@@ -183,11 +186,10 @@ class MotionSweeps::SweepWriter {
   /// Removes the rest of what the cutter has gone through on the motions before, once they are over.
   void append_rest(std::size_t stretch) {
     const auto index = static_cast<std::uint32_t>(stretch);
-    for (PassedPath& each : all_.passed_) {
-      all_.sweeps_.push_back({.body = forms_.cutter(), .path = std::move(each.path), .tag = each.tag});
+    for (Sweep& each : all_.take_rest(forms_)) {
+      all_.sweeps_.push_back(std::move(each));
       all_.uses_.push_back({index, index, Role::Rest, 0, 0});
     }
-    all_.passed_.clear();
   }
 
   void append_sweeps(const PathOfSweeps& path, Cutting cutting) {
@@ -315,27 +317,37 @@ void MotionSweeps::append(const SweepSetting& setting, std::span<UncutStretch> w
   }
 }
 
-void MotionSweeps::append_rapid(const SweepSetting& setting, std::span<const UncutStretch> waiting) {
-  SweepWriter(*this, setting, waiting).append_rapid();
-}
-
 void MotionSweeps::append_rest_of_motion(const SweepSetting& setting, std::span<const UncutStretch> waiting) {
   SweepWriter writer(*this, setting, waiting);
   writer.append_joined();
   writer.append_rapid();
 }
 
-std::optional<std::pair<std::size_t, SweepPath>> MotionSweeps::open_path() const {
-  if (!joined_) return std::nullopt;
-  return std::pair(joined_->first, joined_->path.path());
+std::vector<Sweep> MotionSweeps::take_rest(const ToolForms& forms) {
+  std::vector<Sweep> rest;
+  for (PassedPath& each : passed_)
+    rest.push_back({.body = forms.cutter(), .path = std::move(each.path), .tag = each.tag});
+  passed_.clear();
+  return rest;
+}
+
+std::optional<MotionSweeps::OpenPart> MotionSweeps::open_part() const {
+  if (joined_) return OpenPart{.first = joined_->first, .paths = {joined_->path.path()}};
+  if (rapid_.empty()) return std::nullopt;
+  OpenPart open{.first = rapid_.front().second, .paths = {}};
+  for (const auto& [piece, stretch] : rapid_) open.paths.push_back(piece.path);
+  return open;
 }
 
 void MotionSweeps::clear() {
   sweeps_.clear();
   uses_.clear();
-  if (!joined_) return;
-  joined_->last -= joined_->first;
-  joined_->first = 0;
+  if (joined_) {
+    joined_->last -= joined_->first;
+    joined_->first = 0;
+  }
+  const std::size_t gone = rapid_.empty() ? 0 : rapid_.front().second;
+  for (auto& [piece, stretch] : rapid_) stretch -= gone;
 }
 
 }  // namespace isocnc::removal

@@ -101,17 +101,22 @@ class MotionSweeps {
   /// of each then. The result does not depend on the number of threads.
   void append(const SweepSetting& setting, std::span<UncutStretch> waiting, std::size_t first,
               const stock::Workers& workers);
-  /// Appends the rapid that waits for its end.
-  void append_rapid(const SweepSetting& setting, std::span<const UncutStretch> waiting);
   /// Appends what waits to be joined, and the rapid that waits for its end.
   void append_rest_of_motion(const SweepSetting& setting, std::span<const UncutStretch> waiting);
+  /// Takes the sweeps of the rest of what has been passed through where nothing may be cut.
+  std::vector<stock::Sweep> take_rest(const ToolForms& forms);
 
-  /// The first of the stretches whose sweeps may still be joined, and the path up to now; none if all have theirs.
-  std::optional<std::pair<std::size_t, stock::SweepPath>> open_path() const;
+  /// The part of a motion whose sweeps wait for more of it.
+  struct OpenPart {
+    std::size_t first = 0;                ///< Its first stretch.
+    std::vector<stock::SweepPath> paths;  ///< Of the tip up to now.
+  };
+  /// None if all stretches have their sweeps.
+  std::optional<OpenPart> open_part() const;
 
   std::span<const stock::Sweep> sweeps() const { return sweeps_; }
   std::span<const SweepUse> uses() const { return uses_; }
-  /// Forgets the sweeps. Of the stretches, those before the open path are gone.
+  /// Forgets the sweeps. Of the stretches, those before the open part are gone.
   void clear();
 
  private:

@@ -105,6 +105,25 @@ TEST(Material, RapidsThroughIt) {
   EXPECT_EQ(told(Bench().cut("G00 X250 Y89.9 Z50\nZ5\nX500\nZ50\n")), Lines());
 }
 
+/// What a rapid goes through is removed with the tool that goes through it, and as wide as that is.
+TEST(Material, WhatARapidLeavesIsRemovedByItsOwnTool) {
+  Bench bench;
+  constexpr execution::ToolCode kThin{1, 2, 1};
+  bench.scene.tools[kThin] = bench.scene.tools[Shop::kTool];
+  bench.scene.tools[kThin].cutter = Shop::body(solids::flat_body(2, 60));
+  bench.machine.tool_lengths[kThin] = 100;
+  const std::string through = "G00 X250 Y150 Z50\nZ5\nX450\n";
+  const double exact = 20 * 100 * 35;
+  const std::string with_next = "\nG00 X250 Z60\nG01 X260 F1000\n";
+  for (const std::string& end : {std::string(), std::string("G01 Z60 F1000\n"), std::string("G00 X460\n"),
+                                 "M06 T102001" + with_next, "M06 T101003" + with_next}) {
+    const VerifiedRun run = bench.cut(through + end);
+    EXPECT_NEAR(removed(run), exact, 0.001 * exact) << end;
+    ASSERT_EQ(run.material->by_tool.size(), 1u) << end;
+    EXPECT_NEAR(run.material->by_tool[0].removed.volume, exact, 0.001 * exact) << end;
+  }
+}
+
 /// After a tool whose length is not known it is not known where the next one
 /// is, until Z has a coordinate.
 TEST(Material, IsNotMetWhereItIsNotKnownWhereTheToolIs) {
@@ -608,8 +627,8 @@ struct Listening {
 };
 
 /// What the run finds and leaves.
-std::vector<std::string> told_to(const Listening& listening, const std::string& program) {
-  Bench bench(MachineKind::Head);
+std::vector<std::string> told_to(const Listening& listening, const std::string& program,
+                                 const Bench& bench = Bench(MachineKind::Head)) {
   running::RunOptions options;
   options.setup.home = bench.machine.home;
   Verifier verifier(bench.scene, bench.machine, geometry::Vec3::Zero(), listening.together);
@@ -675,6 +694,23 @@ TEST(Material, WhoLooksWithinACircleChangesNothing) {
   const std::vector<std::string> alone = told_to({}, program);
   EXPECT_TRUE(told_to({.interval = 0.01}, program) == alone);
   EXPECT_TRUE(told_to({.interval = 0.003}, program) == alone);
+}
+
+/// A rapid in several phases through the block: its depth is that below the material before all of it.
+TEST(Material, WhoLooksWithinARapidChangesNothing) {
+  const std::string program =
+      "M06 T101001\nS12000 M03\nG00 X310 Y150 Z60 B0 C0\nZ30\nX390 Z50\nX310 Z25\nY190 Z20 B20\nM02\n";
+  Bench bench(MachineKind::Head);
+  bench.machine.motion.rapid_motion = kinematics::RapidMotion::Independent;
+  for (kinematics::AxisLimits& axis : bench.machine.motion.axes) {
+    axis.speed = 100;
+    axis.acceleration = 1000;
+    axis.jerk = 20'000;
+  }
+  const std::vector<std::string> alone = told_to({}, program, bench);
+  EXPECT_GT(alone.size(), 4u);
+  EXPECT_TRUE(told_to({.interval = 0.05}, program, bench) == alone);
+  EXPECT_TRUE(told_to({.interval = 0.003}, program, bench) == alone);
 }
 
 TEST(Material, VerifyingWhileTheRunGoesOnChangesNothing) {
