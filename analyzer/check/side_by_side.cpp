@@ -30,6 +30,11 @@ int processor_count() { return std::max(1, static_cast<int>(std::thread::hardwar
 
 void on_all_processors(const std::function<void()>& work) { side_by_side(processor_count(), work); }
 
+/// Where more tasks wait, the caller helps rather than make still more: it comes back to that while the tasks do what
+/// one thread has to do alone.
+static constexpr std::size_t kManyTasks = 8;
+static constexpr std::size_t kMostTasks = 16;
+
 Crew::Crew(int size) : helpers_(start_threads(size - 1, [this] { help(); })) {}
 
 Crew::~Crew() {
@@ -44,21 +49,22 @@ Crew::~Crew() {
 
 void Crew::start(std::function<void()> task) {
   if (helpers_.empty()) return task();
-  wait();
-  {
-    const std::lock_guard lock(mutex_);
-    task_ = std::move(task);
-    is_running_ = true;
-  }
+  std::unique_lock lock(mutex_);
+  tasks_.push_back(std::move(task));
   changed_.notify_all();
+  if (tasks_.size() > kManyTasks && is_open_to(last_joined_)) join_work(lock, last_joined_);
+  help_while(lock, [this] { return tasks_.size() > kMostTasks; });
 }
 
 void Crew::wait() {
   std::unique_lock lock(mutex_);
-  std::uint64_t last_joined = 0;
-  while (is_running_) {
-    changed_.wait(lock, [&] { return !is_running_ || (open_.work && open_.number != last_joined); });
-    if (is_running_) join_work(lock, last_joined);
+  help_while(lock, [this] { return is_running_ || !tasks_.empty(); });
+}
+
+void Crew::help_while(std::unique_lock<std::mutex>& lock, const std::function<bool()>& waits) {
+  while (waits()) {
+    changed_.wait(lock, [&] { return !waits() || is_open_to(last_joined_); });
+    if (waits()) join_work(lock, last_joined_);
   }
 }
 
@@ -66,13 +72,16 @@ void Crew::help() {
   std::unique_lock lock(mutex_);
   std::uint64_t last_joined = 0;
   while (true) {
-    changed_.wait(lock, [&] { return ends_ || task_ || (open_.work && open_.number != last_joined); });
+    const auto has_task = [&] { return !is_running_ && !tasks_.empty(); };
+    changed_.wait(lock, [&] { return ends_ || has_task() || is_open_to(last_joined); });
     if (ends_) return;
-    if (!task_) {
+    if (!has_task()) {
       join_work(lock, last_joined);
       continue;
     }
-    const std::function<void()> task = std::exchange(task_, nullptr);
+    const std::function<void()> task = std::move(tasks_.front());
+    tasks_.pop_front();
+    is_running_ = true;
     lock.unlock();
     task();
     lock.lock();

@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -19,7 +20,7 @@ int processor_count();
 /// The same on all processors.
 void on_all_processors(const std::function<void()>& work);
 
-/// Threads that stay: one does a task while its caller goes on, and whoever has nothing to do helps with it. An
+/// Threads that stay: one does tasks while their caller goes on, and whoever has nothing to do helps with them. An
 /// exception that leaves a task or its work terminates the program.
 class Crew {
  public:
@@ -32,9 +33,10 @@ class Crew {
   /// Whether there are other threads than the caller's.
   bool has_helpers() const { return !helpers_.empty(); }
 
-  /// Has another thread do a task; waits for the last one before. Without helpers, does it at once.
+  /// Has another thread do a task, after those that were given before. Helps with what they do together where many
+  /// tasks wait, and returns once few enough do. Without helpers, does it at once.
   void start(std::function<void()> task);
-  /// Returns when the task has ended, and helps with its work until then.
+  /// Returns when all tasks have ended, and helps with their work until then.
   void wait();
 
   /// Runs `work` on this thread, and on those that have nothing to do before it ends; returns when all have ended. To
@@ -50,14 +52,17 @@ class Crew {
   };
 
   void help();
+  void help_while(std::unique_lock<std::mutex>& lock, const std::function<bool()>& waits);
+  bool is_open_to(std::uint64_t last_joined) const { return open_.work && open_.number != last_joined; }
   void join_work(std::unique_lock<std::mutex>& lock, std::uint64_t& last_joined);
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::function<void()> task_;  ///< That nobody has begun.
-  bool is_running_ = false;     ///< A task has been given and has not ended.
+  std::deque<std::function<void()>> tasks_;  ///< That nobody has begun.
+  bool is_running_ = false;                  ///< A task has begun and has not ended.
   bool ends_ = false;
   OpenWork open_;
+  std::uint64_t last_joined_ = 0;  ///< By the caller's thread.
   std::vector<std::thread> helpers_;
 };
 

@@ -4,8 +4,9 @@
 
 namespace isocnc::verification {
 
-/// What waits at most: about as much as is cut at once, so that each task cuts.
-static constexpr std::size_t kMostWaiting = 4096;
+/// What is passed at once: an eighth of what is cut at once, so that the run often sees whether there is something to
+/// help with.
+static constexpr std::size_t kMostWaiting = 512;
 
 VerifierQueue::VerifierQueue(Verifier& verifier, Alongside alongside)
     : verifier_(verifier), alongside_(std::move(alongside)) {}
@@ -13,22 +14,22 @@ VerifierQueue::VerifierQueue(Verifier& verifier, Alongside alongside)
 void VerifierQueue::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
   const removal::MotionFacts motion(event);
   if (!alongside_.start) return verifier_.take(stretch, motion);
-  filling_.order.push_back(Kind::Stretch);
-  filling_.stretches.push_back(stretch);
-  filling_.motions.push_back(motion);
-  if (filling_.stretches.size() == kMostWaiting) hand_over();
+  filling_->order.push_back(Kind::Stretch);
+  filling_->stretches.push_back(stretch);
+  filling_->motions.push_back(motion);
+  if (filling_->stretches.size() == kMostWaiting) hand_over();
 }
 
 void VerifierQueue::take(const simulation::TimedEvent& event) {
   if (!alongside_.start) return verifier_.take(event);
   if (std::holds_alternative<running::MoveEvent>(event.event.what) && event.is_at_known_place()) {
-    filling_.order.push_back(Kind::End);
-    filling_.ends.push_back({removal::MotionFacts(event), event.start + event.duration});
+    filling_->order.push_back(Kind::End);
+    filling_->ends.push_back({removal::MotionFacts(event), event.start + event.duration});
   } else {
-    filling_.order.push_back(Kind::Event);
-    filling_.events.push_back(event);
+    filling_->order.push_back(Kind::Event);
+    filling_->events.push_back(event);
   }
-  if (filling_.order.size() >= 4 * kMostWaiting) hand_over();
+  if (filling_->order.size() >= 4 * kMostWaiting) hand_over();
 }
 
 void VerifierQueue::finish() {
@@ -38,9 +39,21 @@ void VerifierQueue::finish() {
 }
 
 void VerifierQueue::hand_over() {
-  alongside_.wait();
-  std::swap(filling_, passing_);
-  alongside_.start([this] { pass(passing_); });
+  std::shared_ptr<Delivery> next;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!emptied_.empty()) {
+      next = std::move(emptied_.back());
+      emptied_.pop_back();
+    }
+  }
+  if (!next) next = std::make_shared<Delivery>();
+  const std::shared_ptr<Delivery> full = std::exchange(filling_, std::move(next));
+  alongside_.start([this, full] {
+    pass(*full);
+    const std::lock_guard lock(mutex_);
+    emptied_.push_back(full);
+  });
 }
 
 void VerifierQueue::pass(Delivery& delivery) {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "interpreter/verification/verifier.h"
@@ -10,8 +12,8 @@ namespace isocnc::verification {
 
 /// How work is done while its caller goes on.
 struct Alongside {
-  std::function<void(std::function<void()> task)> start;  ///< One task at a time.
-  std::function<void()> wait;                             ///< Returns when it has ended.
+  std::function<void(std::function<void()> task)> start;  ///< One task after the other, in their order.
+  std::function<void()> wait;                             ///< Returns when all have ended.
 };
 
 /// Passes what a run tells to a verifier, in its order, while the run goes on.
@@ -50,8 +52,9 @@ class VerifierQueue {
 
   Verifier& verifier_;
   Alongside alongside_;
-  Delivery filling_;
-  Delivery passing_;
+  std::shared_ptr<Delivery> filling_ = std::make_shared<Delivery>();
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<Delivery>> emptied_;  ///< Guarded by the mutex. They keep their memory.
 };
 
 }  // namespace isocnc::verification

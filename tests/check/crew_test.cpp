@@ -58,6 +58,22 @@ TEST(Crew, WhoWaitsHelps) {
   EXPECT_EQ(present, 2);
 }
 
+/// Who gives tasks faster than they are done takes part as well, before there
+/// are too many.
+TEST(Crew, WhoGivesManyTasksHelps) {
+  Crew crew(2);
+  std::atomic<int> present = 0;
+  crew.start([&] {
+    crew.together([&] {
+      ++present;
+      while (present < 2) std::this_thread::yield();
+    });
+  });
+  for (int i = 0; i < 40; ++i) crew.start([] {});
+  EXPECT_EQ(present, 2);
+  crew.wait();
+}
+
 TEST(Crew, WorksWithoutATask) {
   Crew crew(3);
   std::vector<std::atomic<int>> taken(1000);

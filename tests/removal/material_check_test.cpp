@@ -720,8 +720,11 @@ TEST(Material, VerifyingWhileTheRunGoesOnChangesNothing) {
   const auto wait = [&] {
     if (thread.joinable()) thread.join();
   };
-  const Alongside alongside{.start = [&](const std::function<void()>& task) { thread = std::thread(task); },
-                            .wait = wait};
+  const auto start = [&](const std::function<void()>& task) {
+    wait();
+    thread = std::thread(task);
+  };
+  const Alongside alongside{.start = start, .wait = wait};
   EXPECT_TRUE(told_to({.alongside = alongside}, program) == alone);
   EXPECT_TRUE(told_to({.alongside = alongside, .together = support::on_threads(2)}, program) == alone);
 }
