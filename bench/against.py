@@ -7,7 +7,6 @@ machine does, so a small change shows that times would hide. Prints a Markdown t
 """
 
 import argparse
-import re
 import shutil
 import subprocess
 import sys
@@ -15,6 +14,7 @@ import tempfile
 from pathlib import Path
 
 import compare
+from instructions import instructions
 
 KINDS = [*compare.CLEAN_KINDS, *compare.PATH_KINDS]
 COMMANDS = {
@@ -22,16 +22,6 @@ COMMANDS = {
     "isofmt": ["--stdout", "--no-config"],
     "isorun": ["--no-config"],
 }
-
-
-def instructions(argv: list[str]) -> int:
-    """What the whole process executes in user space."""
-    counting = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *argv]
-    done = subprocess.run(counting, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
-    found = re.search(r"Collected : (\d+)", done.stderr)
-    if done.returncode != 0 or not found:
-        raise compare.CannotMeasure(f"exit status {done.returncode}: {' '.join(counting)}")
-    return int(found[1])
 
 
 class Against:

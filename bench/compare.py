@@ -81,6 +81,11 @@ def run(argv: list[str], expected: int = 0) -> Run:
     return Run(usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024)
 
 
+def on_one_processor(argv: list[str]) -> list[str]:
+    """Programs start no threads there."""
+    return ["/usr/bin/taskset", "-c", str(min(os.sched_getaffinity(0))), *argv]
+
+
 def take_turns(first: list[str], second: list[str], runs: int, expected: int = 0) -> tuple[list[Run], list[Run]]:
     """A, B, A, B, ... after one run of each that does not count. `expected` is the first one's exit status."""
     firsts, seconds = [], []

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import editor
-from compare import CannotMeasure, run
+from compare import CannotMeasure, on_one_processor, run
 
 FLAT_10 = {"radius": 10, "shape": "flat", "cutLength": 50}
 BALL_4 = {"radius": 4, "shape": "ball", "cutLength": 40}
@@ -77,10 +77,6 @@ def check(command, case):
     output = subprocess.run(command, capture_output=True, text=True, check=False)
     if output.returncode != 0 or "cm3 removed" not in output.stdout:
         raise CannotMeasure(f"{case.name}: {output.stderr or output.stdout}")
-
-
-def on_one_processor(command):
-    return ["/usr/bin/taskset", "-c", str(min(os.sched_getaffinity(0))), *command]
 
 
 def measure(build, runs, share, names):
