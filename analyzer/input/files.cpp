@@ -102,7 +102,8 @@ class Search {
                          std::span<const std::string> extensions) {
     if (!entry.is_file || !configuration::is_program_name(entry.name.generic_string(), extensions)) return false;
     const auto status = system::status_of(folder / entry.name);  // Emscripten lists pipes as files.
-    return status && status->kind == system::FileStatus::Kind::Regular;
+    // What cannot be looked at is not passed over: who reads it says why.
+    return status ? status->kind == system::FileStatus::Kind::Regular : errno != ENOENT;
   }
 
   const RulesOfFolder& rules_;

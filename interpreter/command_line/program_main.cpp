@@ -1,15 +1,20 @@
 #include "interpreter/command_line/program_main.h"
 
+#include <cerrno>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
 
+#include <fmt/format.h>
+
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/mapped_file.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/process.h"
+#include "interpreter/system/system_texts.h"
 #include "interpreter/system/temporary_file.h"
+#include "interpreter/system/user_language.h"
 #include "interpreter/text/unicode.h"
 
 namespace isocnc::command_line {
@@ -38,6 +43,15 @@ static void report_failure() {
   std::_Exit(static_cast<int>(ExitStatus::Failure));
 }
 
+/// Writes out what std::cout still has: what could not be written must not pass for a success.
+static ExitStatus flush_output(std::string_view program, ExitStatus status) {
+  errno = 0;
+  if (std::cout.flush()) return status;
+  complain(program,
+           fmt::format("<stdout>: {}", system::cannot_write(errno != 0 ? errno : EIO, system::user_language())));
+  return ExitStatus::Failure;
+}
+
 int program_main(std::string_view program, ExitStatus (*run)(int argc, char** argv), int argc, char** argv) {
   system::prepare_process();
   system::report_lost_bytes(program);
@@ -46,7 +60,7 @@ int program_main(std::string_view program, ExitStatus (*run)(int argc, char** ar
   std::set_terminate(end_in_trouble);
   try {
     system::ProgramArguments arguments(argc, argv);
-    return static_cast<int>(run(arguments.count(), arguments.values()));
+    return static_cast<int>(flush_output(program, run(arguments.count(), arguments.values())));
   } catch (const std::exception&) {
     report_failure();
     return static_cast<int>(ExitStatus::Failure);

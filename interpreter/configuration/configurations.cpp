@@ -1,5 +1,7 @@
 #include "interpreter/configuration/configurations.h"
 
+#include <algorithm>
+#include <iterator>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -10,6 +12,7 @@
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/system/paths.h"
 #include "interpreter/system/source_file.h"
+#include "interpreter/system/system_texts.h"
 #include "interpreter/text/unicode.h"
 
 namespace isocnc::configuration {
@@ -52,6 +55,24 @@ const Configuration& Configurations::of(const fs::path& path) {
   return in_folder(fs::is_directory(path, error) ? path : path.parent_path());
 }
 
+/// Whether a file may be there although it could not be looked at: a disk or a server in trouble, unlike a folder in
+/// which the user may not look for anything.
+static bool is_trouble(const std::error_code& error) {
+  static constexpr std::errc kNoTrouble[] = {
+      std::errc::no_such_file_or_directory, std::errc::not_a_directory,   std::errc::permission_denied,
+      std::errc::operation_not_permitted,   std::errc::filename_too_long, std::errc::too_many_symbolic_link_levels,
+      std::errc::invalid_argument};
+  return error &&
+         std::none_of(std::begin(kNoTrouble), std::end(kNoTrouble), [&](std::errc each) { return error == each; });
+}
+
+const Configuration& Configurations::note_unreachable(const fs::path& file, const std::error_code& error) {
+  File& noted = *files_.emplace_back(std::make_unique<File>());
+  noted.configuration.file = file;
+  noted.problem = system::cannot_read(error, language_);
+  return noted.configuration;
+}
+
 const Configuration& Configurations::nearest(const fs::path& folder) {
   if (const auto known = folders_.find(system::generic_name(folder)); known != folders_.end()) return *known->second;
   const fs::path file = folder / kFileName;
@@ -60,6 +81,8 @@ const Configuration& Configurations::nearest(const fs::path& folder) {
   const Configuration* found = &none_;
   if (is_here) {
     found = &load(file, shown_path(file));
+  } else if (is_trouble(error)) {
+    found = &note_unreachable(shown_path(file), error);
   } else if (folder.has_relative_path()) {
     found = &nearest(folder.parent_path());
   }

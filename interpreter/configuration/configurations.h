@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <unordered_map>
 #include <vector>
 
@@ -46,6 +47,7 @@ class Configurations {
   };
 
   const Configuration& nearest(const std::filesystem::path& folder);
+  const Configuration& note_unreachable(const std::filesystem::path& file, const std::error_code& error);
   const Configuration& load(const std::filesystem::path& file, const std::filesystem::path& shown);
 
   const ConfigurationSource source_;
