@@ -1,6 +1,8 @@
 #include "interpreter/command_line/program_main.h"
 
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -24,15 +26,23 @@ using system::ExitStatus;
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): an exception that nobody handles brings none.
 static std::string_view running_program;
 
-/// Prints the current exception, handled or not; allocates no memory.
+/// Prints a line at once, since several threads may be in trouble; allocates no memory.
+static void report(const char* what, const char* details = "") {
+  std::array<char, 1024> line{};
+  std::snprintf(line.data(), line.size(), "%.*s: %s%s\n", static_cast<int>(running_program.size()),
+                running_program.data(), what, details);
+  std::fputs(line.data(), stderr);
+}
+
+/// Prints the current exception, handled or not.
 static void report_failure() {
   try {
     if (const std::exception_ptr failure = std::current_exception()) std::rethrow_exception(failure);
-    std::cerr << running_program << ": internal error\n";
+    report("internal error");
   } catch (const std::bad_alloc&) {
-    std::cerr << running_program << ": out of memory; memoria esaurita\n";
+    report("out of memory; memoria esaurita");
   } catch (const std::exception& error) {
-    std::cerr << running_program << ": internal error: " << error.what() << '\n';
+    report("internal error: ", error.what());
   }
 }
 

@@ -39,9 +39,9 @@ struct Incident {
   /// EdgeTooShort and CutTooDeep: the depth of the cut. CutsNothing: the length of the way. MaterialLeft: the greatest
   /// height of what is left beyond the tolerance. LoosePiece: the height of the piece.
   double amount = 0;
-  std::optional<double> volume;    ///< MaterialLeft, LoosePiece: mm^3.
-  std::size_t worst_line = 0;      ///< Where it is worst; from 0.
-  double worst_time = 0;           ///< When the motion begins that makes it worst, or the incident if later; seconds.
+  std::optional<double> volume;  ///< MaterialLeft, LoosePiece: mm^3.
+  std::size_t worst_line = 0;    ///< Where it is worst; from 0.
+  double worst_time = 0;  ///< When it is worst, of what is not looked at closely when that motion begins; seconds.
   std::vector<DepthLevel> levels;  ///< How deep it goes, roughly; none of what is found at the end of the run alone.
   double level = 0;                ///< The lowest Z of the tip there, in that frame; mm.
   /// EdgeTooShort, CutTooDeep: the depth that the tool allows. MaterialLeft: the tolerance. mm.

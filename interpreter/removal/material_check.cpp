@@ -90,7 +90,13 @@ MotionFacts::MotionFacts(const simulation::TimedEvent& event)
       is_in_inches(event.event.is_in_inches),
       is_at_known_place(event.is_at_known_place()),
       is_move(event.move.has_value()),
-      is_feed(is_move && event.move->feed.kind != kinematics::FeedKind::Rapid) {}
+      is_feed(is_move && event.move->feed.kind != kinematics::FeedKind::Rapid) {
+  if (!is_move) return;
+  const kinematics::Move& move = *event.move;
+  const bool turns = move.from.b != move.to.b || move.from.c != move.to.c;
+  programmed = {
+      .from = move.from.tip, .to = move.to.tip, .is_line = !move.is_arc && (!turns || move.controls_tool_point)};
+}
 
 void MaterialCheck::take_end(const MotionFacts& motion, double time) {
   last_line_ = motion.line;
@@ -130,7 +136,9 @@ void MaterialCheck::take_part(const motion::Stretch& stretch, const MotionFacts&
                       .line = motion.line,
                       .frame = frames_.size() - 1,
                       .is_in_inches = motion.is_in_inches,
-                      .is_feed = motion.is_feed});
+                      .is_feed = motion.is_feed,
+                      .programmed = motion.programmed,
+                      .spindle_stopped_by = spindle_stopped_by_});
   if (watcher_) show_moments();
   if (waiting_.size() >= kBatch) cut_before_open();
 }
@@ -187,6 +195,27 @@ Cutting MaterialCheck::cutting_of(bool is_feed) const {
   return spindle_.function == 5 ? Cutting::Standing : Cutting::Allowed;
 }
 
+/// The part of a tool that a sweep in a role is of.
+static ToolPart part_of(Role role) {
+  switch (role) {
+    case Role::Shank:
+    case Role::ShankWall:
+      return ToolPart::Shank;
+    case Role::Holder:
+    case Role::HolderNear:
+      return ToolPart::Holder;
+    case Role::Nose:
+    case Role::NoseNear:
+      return ToolPart::Nose;
+    case Role::Cut:
+    case Role::Rest:
+    case Role::RapidCutter:
+    case Role::StandingCutter:
+      break;
+  }
+  return ToolPart::Cutter;
+}
+
 const RevolvedBody* MaterialCheck::whole_body(ToolPart part) const {
   const CuttingTool& tool = forms_->tool();
   switch (part) {
@@ -225,8 +254,11 @@ void MaterialCheck::finish_tool() {
   cut_waiting();
   if (!forms_) return;
   const std::vector<Sweep> rest = sweeps_.take_rest(*forms_);
-  for (const SweepOutcome& outcome : stock_.apply(rest, workers_))
-    if (outcome.meets()) work_of_tool().removed.add({.volume = outcome.volume});
+  for (const SweepOutcome& outcome : stock_.apply(rest, workers_)) {
+    if (!outcome.meets()) continue;
+    work_of_tool().removed.add({.volume = outcome.volume});
+    has_cuts_to_show_ = true;
+  }
 }
 
 /// Cuts what waits but for the stretches whose sweeps wait for more of their motion, so that the sweeps do not depend
@@ -397,7 +429,7 @@ void MaterialCheck::touch(const IncidentKey& key, std::size_t sweep, const Sweep
                .line_before = stretch.line,
                .begins_in_feed = stretch.is_feed,
                .first_stretch = number};
-    if (key.first == IncidentKind::SpindleStopped) episode.incident.shaped_by = spindle_stopped_by_;
+    if (key.first == IncidentKind::SpindleStopped) episode.incident.shaped_by = first_stretch.spindle_stopped_by;
   }
   Incident& incident = episode.incident;
   // On the way straight up, a body that does not cut is deepest where that begins.
@@ -585,40 +617,58 @@ static bool meets(const Stock& stock, const RevolvedBody& body, const SweepPath&
   return ask(stock, body, path, SweepPurpose::Find).meets();
 }
 
+/// When something begins to hold of the pieces of the tip's path, workpiece frame, from the start of a sweep's
+/// stretches on, seconds; where it never does, at their end. To the `halvings`th part of one half of a stretch.
+double MaterialCheck::first_time(const SweepUse& use, int halvings, const HoldsOfPieces& holds) const {
+  std::vector<TipPath> pieces;
+  const auto holds_from_to = [&](std::size_t stretch, double from, double to) {
+    pieces.clear();
+    append_tip_paths(machine_.motion.kinematics, waiting_[stretch].stretch.path, from, to,
+                     {.distance = forms_->reach()}, stock_.spacing() * kPathShare, pieces);
+    for (TipPath& piece : pieces) piece.path = moved(std::move(piece.path), -workpiece_.origin);
+    return holds(pieces);
+  };
+  // One piece for several stretches may hold it where none of them does.
+  std::size_t stretch = use.first;
+  while (stretch < use.last && !holds_from_to(stretch, from_of(use, stretch), to_of(use, stretch))) ++stretch;
+  const double begin = from_of(use, stretch);
+  double before = begin;
+  double after = to_of(use, stretch);
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (before + after) / 2;
+    (holds_from_to(stretch, begin, middle) ? after : before) = middle;
+  }
+  return waiting_[stretch].stretch.time_at(after);
+}
+
 void MaterialCheck::find_first_touch(OpenIncident& episode, std::size_t sweep, const Stock& before) {
   const SweepUse& use = sweeps_.uses()[sweep];
-  if (use.role == Role::Cut) return;
-  const RevolvedBody& body = *sweeps_.sweeps()[sweep].body;
-  std::vector<TipPath> pieces;
-  const auto append_pieces = [&](const motion::Stretch& stretch, double from, double to) {
-    append_tip_paths(machine_.motion.kinematics, stretch.path, from, to, {.distance = forms_->reach()},
-                     stock_.spacing() * kPathShare, pieces);
-  };
-  const auto meets_pieces = [&] {
+  const Sweep& of = sweeps_.sweeps()[sweep];
+  const double time = first_time(use, kHalvings, [&](const std::vector<TipPath>& pieces) {
     return std::any_of(pieces.begin(), pieces.end(), [&](const TipPath& piece) {
-      return meets(before, body, placed(*forms_, moved(piece.path, -workpiece_.origin), use.role));
+      if (use.role != Role::Cut) return meets(before, *of.body, placed(*forms_, piece.path, use.role));
+      // What is cut too deep.
+      Sweep part = of;
+      part.path = piece.path;
+      Stock copy = before;
+      return copy.apply({&part, 1}).front().inside_depth > of.depth_limit;
     });
-  };
-  // The first stretch that meets anything; one piece for all of them may do so where none of them does.
-  std::size_t met = use.first;
-  for (; met < use.last; ++met) {
-    pieces.clear();
-    append_pieces(waiting_[met].stretch, from_of(use, met), to_of(use, met));
-    if (meets_pieces()) break;
-  }
-  const motion::Stretch& stretch = waiting_[met].stretch;
-  double free = from_of(use, met);
-  double touching = to_of(use, met);
-  const double begin = free;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = (free + touching) / 2;
-    pieces.clear();
-    append_pieces(stretch, begin, middle);
-    (meets_pieces() ? touching : free) = middle;
-  }
-  const double time = stretch.time_at(touching);
+  });
   episode.first_touch = std::min(time, episode.first_touch.value_or(time));
   episode.incident.time = *episode.first_touch;
+}
+
+/// When the whole body of a sweep is first as deep as on all of it.
+double MaterialCheck::first_time_as_deep(std::size_t sweep, const Stock& before, double depth) const {
+  constexpr int kRoughHalvings = 8;
+  constexpr double kAsDeep = 0.01;  // mm
+  const SweepUse& use = sweeps_.uses()[sweep];
+  const RevolvedBody& body = *whole_body(part_of(use.role));
+  return first_time(use, kRoughHalvings, [&](const std::vector<TipPath>& pieces) {
+    return std::any_of(pieces.begin(), pieces.end(), [&](const TipPath& piece) {
+      return ask(before, body, placed(*forms_, piece.path, use.role)).depth > depth - kAsDeep;
+    });
+  });
 }
 
 /// Whether shank, holder and nose were already, at the start of a rapid, in all that the cutter meets on a piece of it.
@@ -649,6 +699,16 @@ static std::optional<double> enough_rise(const Stock& stock, const RevolvedBody&
     (is_free(middle) ? free : met) = middle;
   }
   return free;
+}
+
+/// Takes over what is known exactly of the worst place; nothing of what is known roughly is deeper.
+static void tell_exactly(Incident& incident) {
+  for (DepthLevel& level : incident.levels) {
+    level.deepest.depth = std::min(level.deepest.depth, incident.amount);
+    if (level.part != static_cast<std::size_t>(incident.part) || level.deepest.line != incident.worst_line) continue;
+    level.deepest.time = incident.worst_time;
+    level.deepest.point = incident.point;
+  }
 }
 
 void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
@@ -717,15 +777,72 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   // Of rapids, in what the first of them has found: they have cut since.
   const bool is_of_rapids = incident.kind == IncidentKind::RapidInMaterial && episode.before;
   const Stock& found = is_of_rapids ? *episode.before : before;
-  const std::optional<double> rise = enough_rise(found, *sweeps_.sweeps()[index].body, path, up);
+  const bool lies = is_lying(up) || is_lying(axis_of(path));
+  if (!lies) {
+    incident.worst_time = first_time_as_deep(index, before, incident.amount);
+    tell_exactly(incident);
+  }
   incident.enough.reset();
-  if (!rise) return;
-  // The dexels do not measure along a tool that lies, and the material ends up to half a spacing beside them.
-  const double aside = stock_.spacing() / 2 * (1 - std::abs(up.z()));
-  const double skin = forms_->skin(incident.part);
-  if (is_lying(up) || is_lying(axis_of(path))) incident.amount = *rise + skin + aside;
+  // The dexels do not measure along a tool that lies, and beside them the material, or the edge of a tilted tool, goes
+  // on for half a spacing, or up to the next one.
+  const double upright = std::abs(axis_of(path).z());
+  const double edge = stock_.spacing() * std::sqrt(1 - upright * upright) * upright;
+  const double aside = std::max(stock_.spacing() / 2 * (1 - std::abs(up.z())), edge / std::max(std::abs(up.z()), 0.5));
+  const double margin = forms_->skin(incident.part) + aside;
+  if (lies) {
+    const std::optional<double> rise = enough_rise(found, *sweeps_.sweeps()[index].body, path, up);
+    if (rise) incident.amount = *rise + margin;
+  }
   if (!episode.begins_in_feed && !does_height_help(waiting_[use.last])) return;
-  incident.enough = std::ceil((incident.level + *rise + skin + aside - 0.01) * 10) / 10 + 0.0;  // No -0.
+  const std::optional<double> enough = enough_level(index, found, incident.frame, margin);
+  if (enough) incident.enough = std::ceil((*enough - 0.01) * 10) / 10 + 0.0;  // No -0.
+}
+
+/// The Z at the end of a motion, in a frame, with which a body that meets something on it meets nothing, also `margin`
+/// mm lower; none if another Z is no help.
+std::optional<double> MaterialCheck::enough_level(std::size_t sweep, const Stock& found, const geometry::Frame& frame,
+                                                  double margin) const {
+  const SweepUse& use = sweeps_.uses()[sweep];
+  const UncutStretch& stretch = waiting_[use.last];
+  // A rapid is asked for as a whole; of other motions, what comes before does not depend on how they are cut.
+  std::size_t first = sweep;
+  std::size_t last = sweep;
+  const auto is_of_motion = [&](std::size_t i) {
+    const SweepUse& other = sweeps_.uses()[i];
+    return other.role == use.role && waiting_[other.last].stretch.tag == stretch.stretch.tag;
+  };
+  while (use.role == Role::RapidCutter && first > 0 && is_of_motion(first - 1)) --first;
+  while (use.role == Role::RapidCutter && last + 1 < sweeps_.uses().size() && is_of_motion(last + 1)) ++last;
+
+  const RevolvedBody& body = *sweeps_.sweeps()[sweep].body;
+  const auto meets_body = [&](const SweepPath& tip) { return meets(found, body, placed(*forms_, tip, use.role)); };
+  const Vec3 up = frame.axes.col(2);
+  ProgrammedMotion motion = stretch.programmed;
+  motion.from -= workpiece_.origin;
+  motion.to -= workpiece_.origin;
+  const Vec3 axis = axis_of(sweeps_.sweeps()[first].path);
+  const RaisedMotion raised(
+      motion, up,
+      {.axes_alone = !stretch.is_feed && machine_.motion.rapid_motion == kinematics::RapidMotion::Independent,
+       .starts_inside = meets_body(stock::StraightPath{{motion.from, axis}, motion.from})});
+  if (!raised.can_help()) return std::nullopt;
+
+  const double to_tip = part_of(use.role) == ToolPart::Nose ? -forms_->tool().length : 0;
+  std::vector<SweepPath> paths;
+  const auto is_free = [&](double rise) {
+    paths.clear();
+    for (std::size_t i = first; i <= last; ++i)
+      raised.append(shifted_along_axis(sweeps_.sweeps()[i].path, to_tip), rise, paths);
+    return std::none_of(paths.begin(), paths.end(),
+                        [&](const SweepPath& tip) { return meets_body(moved(tip, -margin * up)); });
+  };
+  double free = found.bounds().sizes().norm() + 1;
+  if (!is_free(free)) return std::nullopt;
+  for (double met = 0; free - met > 0.005;) {
+    const double middle = (met + free) / 2;
+    (is_free(middle) ? free : met) = middle;
+  }
+  return up.dot(stretch.programmed.to - frame.origin) + free;
 }
 
 void MaterialCheck::close(OpenIncident& episode) {

@@ -27,6 +27,7 @@ struct MotionFacts {
   bool is_at_known_place = false;  ///< It is known where the machine is before and after it.
   bool is_move = false;            ///< Otherwise the machine is asked for nothing.
   bool is_feed = false;
+  ProgrammedMotion programmed;  ///< Machine frame.
 };
 
 /// Cuts the blank along a run, and finds what goes wrong with its material. It hears what Timing tells its listeners.
@@ -151,8 +152,13 @@ class MaterialCheck {
   void note_ways(const std::vector<bool>& has_cut);
   void end_way();
   void look_closely(stock::Stock before);
+  using HoldsOfPieces = std::function<bool(const std::vector<TipPath>& pieces)>;
+  double first_time(const SweepUse& use, int halvings, const HoldsOfPieces& holds) const;
   void find_first_touch(OpenIncident& episode, std::size_t sweep, const stock::Stock& before);
+  double first_time_as_deep(std::size_t sweep, const stock::Stock& before, double depth) const;
   void find_worst(OpenIncident& episode, const stock::Stock& before);
+  std::optional<double> enough_level(std::size_t sweep, const stock::Stock& found, const geometry::Frame& frame,
+                                     double margin) const;
   void compare_with_target();
   void look_for_loose_pieces();
   void close(OpenIncident& episode);

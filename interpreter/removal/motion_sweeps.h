@@ -9,6 +9,7 @@
 
 #include "interpreter/motion/stretch.h"
 #include "interpreter/removal/joined_path.h"
+#include "interpreter/removal/raised_motion.h"
 #include "interpreter/removal/tip_paths.h"
 #include "interpreter/removal/tool_forms.h"
 #include "interpreter/stock/stock.h"
@@ -42,7 +43,9 @@ struct UncutStretch {
   std::size_t frame = 0;  ///< Index of the frame in force.
   bool is_in_inches = false;
   bool is_feed = false;
-  bool is_standing = false;  ///< A tool where it is mounted.
+  bool is_standing = false;                       ///< A tool where it is mounted.
+  ProgrammedMotion programmed;                    ///< Machine frame.
+  std::optional<std::size_t> spindle_stopped_by;  ///< Line.
   // Known once it has sweeps.
   double length = 0;                               ///< Of the tip's path, mm.
   geometry::Vec3 travel = geometry::Vec3::Zero();  ///< Of the tip from its start to its end, mm.

@@ -191,6 +191,55 @@ TEST(Material, RapidsAndStoppedSpindlesAreFoundOnShortMotions) {
   EXPECT_EQ(dialect::definition(standing.contacts[0].id).code, "E158");
 }
 
+/// The Z that is told, typed into the line of the finding, is enough: else the machine would crash there, with a
+/// finding that says it would not. Of motions that go down, up, level and with a turning axis, alone and together.
+TEST(Material, TheZThatIsToldIsEnough) {
+  struct Way {
+    std::string to;      // Before Z.
+    double height = 0;   // The Z of its line.
+    std::string before;  // The lines before it.
+    bool is_level = false;
+  };
+  const std::string over = "G00 X250 Y150 Z90\n";
+  const Way ways[] = {
+      {"G00 X350", 30, over},                                            // Down into it.
+      {"G00 X500", 5, over},                                             // Through it.
+      {"G00 X390", 35, "G00 X250 Y150 Z90\nG00 X280 Z45\n"},             // A little into it.
+      {"G00 X500 B30", 44, "G00 X250 Y150 Z90 B0 C0\nG00 Z44\n", true},  // The tip dips while B turns.
+      {"G00 X500 B60", 45, "G00 X250 Y150 Z90 B0 C0\nG00 Z45\n", true},
+      {"G00 X500", 30, "G00 X200 Y150 Z90 B30 C0\nG00 Z30\n",
+       true},  // The edge of a tilted tool is lower than its tip.
+  };
+  for (const auto motion : {kinematics::RapidMotion::Interpolated, kinematics::RapidMotion::Independent})
+    for (const Way& way : ways) {
+      Bench bench(MachineKind::Head);
+      bench.scene.tools[Shop::kTool].holder.reset();
+      bench.machine.motion.rapid_motion = motion;
+      for (kinematics::AxisLimits& axis : bench.machine.motion.axes) axis.acceleration = 2000, axis.speed = 400;
+      const auto with = [&](double z) {
+        const std::string before =
+            way.is_level ? way.before.substr(0, way.before.rfind('Z')) + fmt::format("Z{:.2f}\n", z) : way.before;
+        return bench.cut(before + way.to + fmt::format(" Z{:.2f}\nG00 Z200\n", z));
+      };
+      const VerifiedRun run = with(way.height);
+      ASSERT_FALSE(run.contacts.empty()) << way.to;
+      ASSERT_TRUE(run.contacts[0].enough.has_value()) << way.to;
+      const double enough = *run.contacts[0].enough;
+      EXPECT_GT(enough, way.height) << way.to;
+      EXPECT_EQ(told(with(enough)), Lines()) << way.to << " at " << enough;
+      // The axes alone are higher on their way than what is looked at.
+      if (motion == kinematics::RapidMotion::Independent) continue;
+      EXPECT_FALSE(with(enough - 0.5).contacts.empty()) << way.to << " at " << enough;
+    }
+}
+
+TEST(Material, NoZIsToldWhereTheStartIsTooLow) {
+  // Up through the edge of the block, from beside it.
+  const VerifiedRun run = Bench().cut("G00 X250 Y150 Z90\nZ30\nX500 Z60\nG00 Z90\n");
+  ASSERT_EQ(run.contacts.size(), 1u);
+  EXPECT_FALSE(run.contacts[0].enough.has_value());
+}
+
 TEST(Material, RapidsThroughWhatIsCutMeetNothing) {
   // Back through a slot, an arc, a ramp and a rounded corner, out of a hole.
   EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z30 F1000\nX380\nG00 X320\nZ50\n")), Lines());
@@ -399,6 +448,31 @@ TEST(Material, WhereNoHeightHelpsNoneIsTold) {
   EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z30 F1000\nG00 X350\nZ50\n")), Lines{"E150 5 10.0"});
   // From a height that a rapid has chosen, another one helps.
   EXPECT_EQ(told(Bench().cut("G00 X320 Y150 Z50\nG01 Z30 F1000\nG00 Z35\nX350\nZ50\n")), Lines{"E150 6 5.0 Z40.0"});
+}
+
+TEST(Material, TimesAreThoseOfTheContact) {
+  // 8 s for the tool and 2 s for the spindle; 18 mm down take 1.1 s, 90 mm to the block 10.8 s, and rapids half a one.
+  Bench bench;
+  bench.scene.tools[Shop::kTool].max_depth = 5;
+  const VerifiedRun cut = bench.cut("G00 X200 Y150 Z50\nG01 Z32 F1000\nX350 F500\n");
+  ASSERT_EQ(cut.contacts.size(), 1u);
+  EXPECT_NEAR(cut.contacts[0].time, 22.4, 0.5);
+  // The holder, 60 mm above the tip, is in the block on the last 5 of 140 mm.
+  const VerifiedRun holder = Bench().cut("G00 X350 Y150 Z115\nG01 Z-25 F1000\nG00 Z50\n");
+  ASSERT_EQ(holder.contacts.size(), 1u);
+  EXPECT_NEAR(holder.contacts[0].time, 10 + 135 * 0.06 + 0.5, 0.5);
+  EXPECT_NEAR(holder.contacts[0].worst_time - holder.contacts[0].time, 5 * 0.06, 0.05);
+}
+
+/// The whole height of a plate: what counts of a body is thinner, but the plate is not thicker.
+TEST(Material, NothingIsDeeperThanThePlate) {
+  Bench bench;
+  bench.scene.setup.clear();
+  bench.box("", {300, 100, 20}, {400, 200, 40}, BodyRole::Stock);
+  const VerifiedRun run = bench.cut("G00 X350 Y150 Z50\nG01 Z-35 F900\nZ-41\nZ-90\nG00 Z50\n");
+  for (const simulation::RunFinding& each : findings_with(run, "E151"))
+    EXPECT_NEAR(each.finding.values[0], 20, 0.001) << each.line;
+  EXPECT_EQ(told(run), Lines{"E151 4 20.0 Z-20.0"});
 }
 
 TEST(Material, SpindleStopped) {
@@ -682,6 +756,18 @@ TEST(Material, WhoLooksMeanwhileChangesNothing) {
   EXPECT_GT(alone.size(), 30u);
   EXPECT_TRUE(told_to({.interval = 0.05}, program) == alone);
   EXPECT_TRUE(told_to({.interval = 0.003}, program) == alone);
+}
+
+/// Whatever comes after it, and whoever looks at the stock meanwhile.
+TEST(Material, TheStopOfTheSpindleIsTheOneBeforeTheCut) {
+  const std::string moves = "G00 X320 Y150 Z50\nM05\nG01 Z37 F1000\nX330\nM03\nG01 X370\nM05\nG01 X380\nG00 Z50\nM05\n";
+  const VerifiedRun run = Bench().cut(moves);
+  ASSERT_EQ(run.contacts.size(), 2u);
+  EXPECT_EQ(run.contacts[0].shaped_by, 3u);
+  EXPECT_EQ(run.contacts[1].shaped_by, 8u);
+  EXPECT_NE(run.contacts[0].mistake, run.contacts[1].mistake);
+  const std::string program = "M06 T101001\nS12000 M03\n" + moves + "M02\n";
+  EXPECT_EQ(told_to({.interval = 0.01}, program), told_to({}, program));
 }
 
 /// A full circle is two pieces of one stretch: the first one cuts, and the second one, past the block, may be open when
