@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 #include <utility>
 
 #include "analyzer/check/jump_collector.h"
@@ -75,11 +74,13 @@ void Analysis::each_jump_event(Take take) const {
 
 /// The labels that the jumps in all chunks name, ascending.
 std::vector<std::uint64_t> Analysis::labels_named() const {
-  std::set<std::uint64_t> labels;
+  std::vector<std::uint64_t> labels;
   each_jump_event([&](std::size_t, const FlowEvent& event) {
-    if (event.kind == FlowEvent::Kind::Jump) labels.insert(event.jump.target);
+    if (event.kind == FlowEvent::Kind::Jump) labels.push_back(event.jump.target);
   });
-  return {labels.begin(), labels.end()};
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  return labels;
 }
 
 /// The elements of `a` that are not in `b`; both are ascending.
@@ -91,7 +92,7 @@ static std::vector<std::uint64_t> difference(const std::vector<std::uint64_t>& a
 
 /// Reads the labels that jumps name now (ascending) and did not name before, and forgets the others.
 void Analysis::follow_labels(const std::vector<std::uint64_t>& named) {
-  const std::vector<std::uint64_t> named_before = jumps_.labels();
+  const std::vector<std::uint64_t>& named_before = jumps_.labels();
   const std::vector<std::uint64_t> added = difference(named, named_before);
   const std::vector<std::uint64_t> removed = difference(named_before, named);
   if (added.empty() && removed.empty()) return;

@@ -11,7 +11,7 @@ void JumpCollector::add(std::size_t line, const FlowEvent& event) {
 
 JumpMap JumpCollector::finish() && {
   JumpMap map(std::move(sites_));
-  if (!map.empty()) map.follow(events_);
+  if (!map.empty()) map.follow(std::move(events_));
   return map;
 }
 

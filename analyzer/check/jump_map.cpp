@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
 
 #ifdef __SSE2__
@@ -206,22 +205,27 @@ JumpMap JumpMap::with_labels(std::string_view text) {
   return map;
 }
 
+/// Sorts values, each once.
+template <class Value>
+static void sort_once(std::vector<Value>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 JumpMap::JumpMap(std::vector<Site> sites) : sites_(std::move(sites)), knows_labels_(sites_.empty()) {
   if (sites_.empty()) return;
   filter_.resize(16384);
   for (const Site& site : sites_) {
     const syntax::Jump& jump = site.jump;
-    targets_.insert(jump.target);
+    targets_.push_back(jump.target);
     const std::size_t bit = filter_bit(jump.target);
     filter_[bit / 64] |= std::uint64_t{1} << (bit % 64);
     if (jump.variable <= 0 || !jump.condition_is_known()) continue;
     constants_[static_cast<std::size_t>(jump.variable)].push_back(jump.value);
     compared_ |= register_bit(jump.variable);
   }
-  for (std::vector<double>& values : constants_) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-  }
+  sort_once(targets_);
+  for (std::vector<double>& values : constants_) sort_once(values);
   reads_.resize(sites_.size());
 }
 
@@ -230,11 +234,25 @@ void JumpMap::read_labels(std::string_view text) {
   scan_events(text, [&](const FlowEvent& event, const char*) {
     if (event.kind != FlowEvent::Kind::Label || names(event.label)) events.emplace_back(event);
   });
-  follow(events);
+  follow(std::move(events));
 }
 
 /// Computes what depends on the order of jumps, labels and assignments.
-void JumpMap::follow(const std::vector<ReducedEvent>& events) {
+void JumpMap::follow(std::vector<ReducedEvent> events) {
+  // Labels mostly ascend, and so do those that jumps name: each is at the last place or the next one.
+  std::size_t near_labels = 0;
+  std::size_t near_jumps = 0;
+  for (ReducedEvent& event : events) {
+    if (event.kind == FlowEvent::Kind::Assignment) continue;
+    std::size_t& near = event.kind == FlowEvent::Kind::Label ? near_labels : near_jumps;
+    if (near + 1 < targets_.size() && targets_[near] < event.label) ++near;
+    if (targets_[near] != event.label) {
+      const auto found = std::lower_bound(targets_.begin(), targets_.end(), event.label);
+      if (found == targets_.end() || *found != event.label) continue;
+      near = static_cast<std::size_t>(found - targets_.begin());
+    }
+    event.target = near;
+  }
   if (compares_registers()) find_reads(events);
   find_targets(events);
 }
@@ -242,7 +260,7 @@ void JumpMap::follow(const std::vector<ReducedEvent>& events) {
 /// Goes from the end of the program to its start: as all jumps go forward, one pass finds which registers are read
 /// later.
 void JumpMap::find_reads(const std::vector<ReducedEvent>& events) {
-  std::unordered_map<std::uint64_t, RegisterSet> read_at_label;
+  std::vector<RegisterSet> read_at_target(targets_.size());
   RegisterSet read = 0;
   std::size_t jump = sites_.size();
   for (auto event = events.rbegin(); event != events.rend(); ++event) {
@@ -251,15 +269,14 @@ void JumpMap::find_reads(const std::vector<ReducedEvent>& events) {
         read &= ~register_bit(event->reg);
         break;
       case FlowEvent::Kind::Label:
-        read_at_label[event->label] = read;
+        if (event->target != kNone) read_at_target[event->target] = read;
         break;
       case FlowEvent::Kind::Jump: {
-        const syntax::Jump& condition = sites_[--jump].jump;
-        const auto target = read_at_label.find(condition.target);
+        const int variable = sites_[--jump].jump.variable;
         reads_[jump].after = read;
-        reads_[jump].at_target = target == read_at_label.end() ? 0 : target->second;
+        reads_[jump].at_target = read_at_target[event->target];
         read |= reads_[jump].at_target;
-        if (condition.variable > 0) read |= register_bit(condition.variable);
+        if (variable > 0) read |= register_bit(variable);
         reads_[jump].before = read;
         break;
       }
@@ -269,18 +286,15 @@ void JumpMap::find_reads(const std::vector<ReducedEvent>& events) {
 
 /// A line's label takes effect before its jump, so an IF cannot jump to its own line (D51).
 void JumpMap::find_targets(const std::vector<ReducedEvent>& events) {
-  std::unordered_map<std::uint64_t, std::size_t> last_definitions;
-  std::vector<std::size_t> jumps;
+  std::vector<std::size_t> last_definitions(targets_.size(), kNone);
   for (std::size_t i = 0; i < events.size(); ++i) {
-    if (events[i].kind == FlowEvent::Kind::Jump) jumps.push_back(i);
-    if (events[i].kind != FlowEvent::Kind::Label) continue;
-    if (!last_definitions.insert_or_assign(events[i].label, i).second) repeated_.insert(events[i].label);
+    if (events[i].kind != FlowEvent::Kind::Label || events[i].target == kNone) continue;
+    if (std::exchange(last_definitions[events[i].target], i) != kNone) repeated_.insert(events[i].label);
   }
-  for (std::size_t jump = 0; jump < jumps.size(); ++jump) {
-    const auto last = last_definitions.find(sites_[jump].jump.target);
-    Target target = Target::NotFound;
-    if (last != last_definitions.end()) target = last->second > jumps[jump] ? Target::Below : Target::Above;
-    targets_of_jumps_.push_back(target);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (events[i].kind != FlowEvent::Kind::Jump) continue;
+    const std::size_t last = last_definitions[events[i].target];
+    targets_of_jumps_.push_back(last == kNone ? Target::NotFound : last > i ? Target::Below : Target::Above);
   }
   knows_labels_ = true;
 }
@@ -294,12 +308,6 @@ JumpMap JumpMap::moved(std::size_t first, const std::vector<Site>& sites, std::i
   const auto others = std::copy(sites.begin(), sites.end(), sites_.begin() + static_cast<std::ptrdiff_t>(first));
   for (auto site = others; site != sites_.end(); ++site) site->line += static_cast<std::size_t>(lines);
   return std::move(*this);
-}
-
-std::vector<std::uint64_t> JumpMap::labels() const {
-  std::vector<std::uint64_t> labels(targets_.begin(), targets_.end());
-  std::sort(labels.begin(), labels.end());
-  return labels;
 }
 
 /// Whether two conditions and their targets are the same.

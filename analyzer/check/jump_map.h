@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -97,9 +98,11 @@ class JumpMap {
   bool empty() const { return sites_.empty(); }
   const std::vector<Site>& sites() const { return sites_; }
   /// Whether some jump names a label.
-  bool names(std::uint64_t label) const { return !empty() && may_name(label) && targets_.contains(label); }
+  bool names(std::uint64_t label) const {
+    return !empty() && may_name(label) && std::binary_search(targets_.begin(), targets_.end(), label);
+  }
   /// The labels that jumps name, ascending.
-  std::vector<std::uint64_t> labels() const;
+  const std::vector<std::uint64_t>& labels() const { return targets_; }
   /// The first jump on or below a line; the number of all jumps if there is none.
   std::size_t first_from(std::size_t line) const;
 
@@ -133,11 +136,15 @@ class JumpMap {
 
   /// An event, reduced to what find_reads() and find_targets() need.
   struct ReducedEvent {
-    explicit ReducedEvent(const FlowEvent& event) : kind(event.kind), reg(event.reg), label(event.label) {}
+    explicit ReducedEvent(const FlowEvent& event)
+        : kind(event.kind),
+          reg(event.reg),
+          label(event.kind == FlowEvent::Kind::Jump ? event.jump.target : event.label) {}
 
     FlowEvent::Kind kind;
-    std::uint8_t reg;     // The register assigned to.
-    std::uint64_t label;  // The label defined.
+    std::uint8_t reg;            // The register assigned to.
+    std::uint64_t label;         // The label defined, or jumped to.
+    std::size_t target = kNone;  // Its index among those that jumps name. Set by follow().
   };
   struct Reads {
     RegisterSet after = 0;
@@ -147,10 +154,12 @@ class JumpMap {
     friend bool operator==(const Reads&, const Reads&) = default;
   };
 
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
   /// The map of the jumps alone, without labels.
   explicit JumpMap(std::vector<Site> sites);
   void read_labels(std::string_view text);
-  void follow(const std::vector<ReducedEvent>& events);
+  void follow(std::vector<ReducedEvent> events);
   void find_reads(const std::vector<ReducedEvent>& events);
   void find_targets(const std::vector<ReducedEvent>& events);
 
@@ -162,8 +171,8 @@ class JumpMap {
   }
 
   std::vector<Site> sites_;
-  std::unordered_set<std::uint64_t> targets_;
-  std::vector<std::uint64_t> filter_;  // 1,048,576 bits; empty without jumps.
+  std::vector<std::uint64_t> targets_;  // Ascending.
+  std::vector<std::uint64_t> filter_;   // 1,048,576 bits; empty without jumps.
   std::array<std::vector<double>, dialect::kRegisterCount + 1> constants_;
   RegisterSet compared_ = 0;
   std::vector<Reads> reads_;  // One per jump.
