@@ -836,7 +836,7 @@ std::optional<double> MaterialCheck::enough_level(std::size_t sweep, const Stock
     return std::none_of(paths.begin(), paths.end(),
                         [&](const SweepPath& tip) { return meets_body(moved(tip, -margin * up)); });
   };
-  double free = found.bounds().sizes().norm() + 1;
+  double free = std::min(found.bounds().sizes().norm() + 1, raised.most_rise());
   if (!is_free(free)) return std::nullopt;
   for (double met = 0; free - met > 0.005;) {
     const double middle = (met + free) / 2;

@@ -1,6 +1,8 @@
 #include "interpreter/removal/raised_motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "interpreter/removal/tip_paths.h"
 
@@ -20,6 +22,11 @@ RaisedMotion::RaisedMotion(const ProgrammedMotion& motion, const Vec3& up, const
   } else if (rise < 0 && motion.is_line) {
     way_ = kind.axes_alone ? Way::AxesAlone : Way::Line;
   }
+}
+
+double RaisedMotion::most_rise() const {
+  if (way_ == Way::Level) return std::numeric_limits<double>::infinity();
+  return height(motion_.from) - height(motion_.to);
 }
 
 Vec3 RaisedMotion::raised(const Vec3& tip, double rise) const {

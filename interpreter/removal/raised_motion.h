@@ -31,6 +31,9 @@ class RaisedMotion {
   /// too low, nor where its way follows from more than its ends.
   bool can_help() const { return way_ != Way::Unknown; }
 
+  /// How much higher it may end at most, mm: where it would have to rise, it is its start that is too low.
+  double most_rise() const;
+
   /// Appends the path of the tip on a part of the motion, if that ends higher by `rise` mm.
   /// Where each axis goes at its own speed, it may be higher on its way, but is nowhere lower.
   void append(const stock::SweepPath& tip, double rise, std::vector<stock::SweepPath>& paths) const;

@@ -238,6 +238,10 @@ TEST(Material, NoZIsToldWhereTheStartIsTooLow) {
   const VerifiedRun run = Bench().cut("G00 X250 Y150 Z90\nZ30\nX500 Z60\nG00 Z90\n");
   ASSERT_EQ(run.contacts.size(), 1u);
   EXPECT_FALSE(run.contacts[0].enough.has_value());
+  // Down from beside it, where the edge is at Z40: an end so high that the way there leads over it helps nobody.
+  const VerifiedRun down = Bench().cut("G00 X250 Y150 Z90\nZ36\nX500 Z20\nG00 Z90\n");
+  ASSERT_EQ(down.contacts.size(), 1u);
+  EXPECT_FALSE(down.contacts[0].enough.has_value());
 }
 
 TEST(Material, RapidsThroughWhatIsCutMeetNothing) {
