@@ -22,8 +22,6 @@ using Role = SweepRole;
 
 /// Stretches that wait at most.
 static constexpr std::size_t kBatch = 4096;
-/// How exactly the first touch is told, as a part of its sweep.
-static constexpr int kHalvings = 16;
 /// Seconds between the moments at which a watcher is asked first.
 static constexpr double kShortestMoment = 0.05;
 /// Where nothing is cut, that many of these are left out at once.
@@ -195,42 +193,6 @@ Cutting MaterialCheck::cutting_of(bool is_feed) const {
   return spindle_.function == 5 ? Cutting::Standing : Cutting::Allowed;
 }
 
-/// The part of a tool that a sweep in a role is of.
-static ToolPart part_of(Role role) {
-  switch (role) {
-    case Role::Shank:
-    case Role::ShankWall:
-      return ToolPart::Shank;
-    case Role::Holder:
-    case Role::HolderNear:
-      return ToolPart::Holder;
-    case Role::Nose:
-    case Role::NoseNear:
-      return ToolPart::Nose;
-    case Role::Cut:
-    case Role::Rest:
-    case Role::RapidCutter:
-    case Role::StandingCutter:
-      break;
-  }
-  return ToolPart::Cutter;
-}
-
-const RevolvedBody* MaterialCheck::whole_body(ToolPart part) const {
-  const CuttingTool& tool = forms_->tool();
-  switch (part) {
-    case ToolPart::Cutter:
-      return tool.cutter;
-    case ToolPart::Shank:
-      return tool.shank;
-    case ToolPart::Holder:
-      return tool.holder;
-    case ToolPart::Nose:
-      break;
-  }
-  return tool.nose;
-}
-
 /// Makes the sweeps of what waits.
 void MaterialCheck::append_sweeps() {
   if (!forms_) return;
@@ -317,9 +279,6 @@ static double length_across_axis(const SweepPath& path) {
     return straight->from.axis.cross(straight->to - straight->from.origin).norm();
   return length_of(path);
 }
-
-/// Whether a tool lies flatter than 45 degrees.
-static bool is_lying(const Vec3& axis) { return std::abs(axis.z()) < std::sqrt(0.5); }
 
 /// How a cut is, of what it has removed. The dexels measure the depth of a cut from above. Where the tool lies flatter,
 /// they measure across it, which is the width, and the depth follows from the volume.
@@ -575,7 +534,7 @@ void MaterialCheck::look_closely(Stock before) {
         question.episode->before = before;
         break;
       case About::FirstTouch:
-        find_first_touch(*question.episode, question.sweep, before);
+        note_first_touch(*question.episode, closer_look().first_touch(question.sweep, before));
         break;
       case About::Worst:
         ++looked_at_;
@@ -591,114 +550,16 @@ void MaterialCheck::look_closely(Stock before) {
   closed_.clear();
 }
 
-double MaterialCheck::from_of(const SweepUse& use, std::size_t stretch) const {
-  return stretch == use.first ? use.from : waiting_[stretch].from;
-}
-
-double MaterialCheck::to_of(const SweepUse& use, std::size_t stretch) const {
-  return stretch == use.last ? use.to : waiting_[stretch].to;
-}
-
 /// When the machine is at the start of a sweep, seconds.
 double MaterialCheck::start_of_use(const SweepUse& use) const { return waiting_[use.first].stretch.time_at(use.from); }
 
 double MaterialCheck::end_of_use(const SweepUse& use) const { return waiting_[use.last].stretch.time_at(use.to); }
 
-/// What a body meets on a path, in a stock as it is.
-static SweepOutcome ask(const Stock& stock, const RevolvedBody& body, const SweepPath& path,
-                        SweepPurpose purpose = SweepPurpose::Ask) {
-  Stock copy = stock;  // Asking changes nothing; the copy is a pointer.
-  const Sweep sweep{.body = &body, .path = path, .purpose = purpose};
-  return copy.apply({&sweep, 1}).front();
-}
+CloserLook MaterialCheck::closer_look() const { return {setting(), machine_.motion.rapid_motion, sweeps_, waiting_}; }
 
-/// Whether it meets anything.
-static bool meets(const Stock& stock, const RevolvedBody& body, const SweepPath& path) {
-  return ask(stock, body, path, SweepPurpose::Find).meets();
-}
-
-/// When something begins to hold of the pieces of the tip's path, workpiece frame, from the start of a sweep's
-/// stretches on, seconds; where it never does, at their end. To the `halvings`th part of one half of a stretch.
-double MaterialCheck::first_time(const SweepUse& use, int halvings, const HoldsOfPieces& holds) const {
-  std::vector<TipPath> pieces;
-  const auto holds_from_to = [&](std::size_t stretch, double from, double to) {
-    pieces.clear();
-    append_tip_paths(machine_.motion.kinematics, waiting_[stretch].stretch.path, from, to,
-                     {.distance = forms_->reach()}, stock_.spacing() * kPathShare, pieces);
-    for (TipPath& piece : pieces) piece.path = moved(std::move(piece.path), -workpiece_.origin);
-    return holds(pieces);
-  };
-  // One piece for several stretches may hold it where none of them does.
-  std::size_t stretch = use.first;
-  while (stretch < use.last && !holds_from_to(stretch, from_of(use, stretch), to_of(use, stretch))) ++stretch;
-  const double begin = from_of(use, stretch);
-  double before = begin;
-  double after = to_of(use, stretch);
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = (before + after) / 2;
-    (holds_from_to(stretch, begin, middle) ? after : before) = middle;
-  }
-  return waiting_[stretch].stretch.time_at(after);
-}
-
-void MaterialCheck::find_first_touch(OpenIncident& episode, std::size_t sweep, const Stock& before) {
-  const SweepUse& use = sweeps_.uses()[sweep];
-  const Sweep& of = sweeps_.sweeps()[sweep];
-  const double time = first_time(use, kHalvings, [&](const std::vector<TipPath>& pieces) {
-    return std::any_of(pieces.begin(), pieces.end(), [&](const TipPath& piece) {
-      if (use.role != Role::Cut) return meets(before, *of.body, placed(*forms_, piece.path, use.role));
-      // What is cut too deep.
-      Sweep part = of;
-      part.path = piece.path;
-      Stock copy = before;
-      return copy.apply({&part, 1}).front().inside_depth > of.depth_limit;
-    });
-  });
+void MaterialCheck::note_first_touch(OpenIncident& episode, double time) {
   episode.first_touch = std::min(time, episode.first_touch.value_or(time));
   episode.incident.time = *episode.first_touch;
-}
-
-/// When the whole body of a sweep is first as deep as on all of it.
-double MaterialCheck::first_time_as_deep(std::size_t sweep, const Stock& before, double depth) const {
-  constexpr int kRoughHalvings = 8;
-  constexpr double kAsDeep = 0.01;  // mm
-  const SweepUse& use = sweeps_.uses()[sweep];
-  const RevolvedBody& body = *whole_body(part_of(use.role));
-  return first_time(use, kRoughHalvings, [&](const std::vector<TipPath>& pieces) {
-    return std::any_of(pieces.begin(), pieces.end(), [&](const TipPath& piece) {
-      return ask(before, body, placed(*forms_, piece.path, use.role)).depth > depth - kAsDeep;
-    });
-  });
-}
-
-/// Whether shank, holder and nose were already, at the start of a rapid, in all that the cutter meets on a piece of it.
-bool MaterialCheck::has_body_been_there(const Stock& before, std::size_t sweep) const {
-  Stock without = before;
-  std::size_t first = sweep;  // What a rapid asks stands in a row.
-  while (first > 0 && sweeps_.uses()[first - 1].role == sweeps_.uses()[sweep].role) --first;
-  const solids::AxisPlacement start = start_of(sweeps_.sweeps()[first].path);
-  bool is_in = false;
-  for (const auto& [part, role] : {std::pair(ToolPart::Shank, Role::Shank), std::pair(ToolPart::Holder, Role::Holder),
-                                   std::pair(ToolPart::Nose, Role::Nose)}) {
-    const RevolvedBody* const body = whole_body(part);
-    if (!body) continue;
-    const Sweep sweep{.body = body, .path = placed(*forms_, stock::StraightPath{start, start.origin}, role)};
-    is_in = without.apply({&sweep, 1}).front().meets() || is_in;
-  }
-  return is_in && !meets(without, *forms_->passing_cutter(), sweeps_.sweeps()[sweep].path);
-}
-
-/// The height by which a path must be raised so that a body meets nothing; none if that does not help.
-static std::optional<double> enough_rise(const Stock& stock, const RevolvedBody& body, const SweepPath& path,
-                                         const Vec3& up) {
-  const auto is_free = [&](double rise) { return !meets(stock, body, moved(path, rise * up)); };
-  double free = stock.bounds().sizes().norm() + 1;
-  if (!is_free(free)) return std::nullopt;
-  for (double met = 0; free - met > 0.005;) {
-    const double middle = (met + free) / 2;
-    (is_free(middle) ? free : met) = middle;
-  }
-  return free;
 }
 
 /// Takes over what is known exactly of the worst place; nothing of what is known roughly is deeper.
@@ -716,6 +577,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   const SweepUse& use = sweeps_.uses()[index];
   const SweepPath& path = sweeps_.sweeps()[index].path;
   Incident& incident = episode.incident;
+  const CloserLook look = closer_look();
   const auto set_shaper = [&] {
     const Vec3 point = incident.point - workpiece_.origin;
     if (incident.kind == IncidentKind::SpindleStopped) return;
@@ -736,8 +598,9 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
     case IncidentKind::SpindleStopped:
     case IncidentKind::BodyInMaterial: {
       // The whole body meets more than what counts of it.
-      const SweepOutcome whole = ask(before, *whole_body(incident.part), path);
-      if (incident.kind == IncidentKind::RapidInMaterial) incident.follows_body = has_body_been_there(before, index);
+      const SweepOutcome whole = ask(before, *whole_body(forms_->tool(), incident.part), path);
+      if (incident.kind == IncidentKind::RapidInMaterial)
+        incident.follows_body = look.has_body_been_there(index, before);
       incident.amount = whole.depth;
       incident.point = in_machine(whole.point);
       break;
@@ -759,7 +622,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
       double near = workpiece_.clearance;
       for (int i = 0; i < 10; ++i) {
         const double middle = (clear + near) / 2;
-        (meets(before, grown(*whole_body(incident.part), middle), path) ? near : clear) = middle;
+        (meets(before, grown(*whole_body(forms_->tool(), incident.part), middle), path) ? near : clear) = middle;
       }
       incident.amount = near;
       break;
@@ -779,7 +642,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   const Stock& found = is_of_rapids ? *episode.before : before;
   const bool lies = is_lying(up) || is_lying(axis_of(path));
   if (!lies) {
-    incident.worst_time = first_time_as_deep(index, before, incident.amount);
+    incident.worst_time = look.first_time_as_deep(index, before, incident.amount);
     tell_exactly(incident);
   }
   incident.enough.reset();
@@ -794,55 +657,8 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
     if (rise) incident.amount = *rise + margin;
   }
   if (!episode.begins_in_feed && !does_height_help(waiting_[use.last])) return;
-  const std::optional<double> enough = enough_level(index, found, incident.frame, margin);
+  const std::optional<double> enough = look.enough_level(index, found, incident.frame, margin);
   if (enough) incident.enough = std::ceil((*enough - 0.01) * 10) / 10 + 0.0;  // No -0.
-}
-
-/// The Z at the end of a motion, in a frame, with which a body that meets something on it meets nothing, also `margin`
-/// mm lower; none if another Z is no help.
-std::optional<double> MaterialCheck::enough_level(std::size_t sweep, const Stock& found, const geometry::Frame& frame,
-                                                  double margin) const {
-  const SweepUse& use = sweeps_.uses()[sweep];
-  const UncutStretch& stretch = waiting_[use.last];
-  // A rapid is asked for as a whole; of other motions, what comes before does not depend on how they are cut.
-  std::size_t first = sweep;
-  std::size_t last = sweep;
-  const auto is_of_motion = [&](std::size_t i) {
-    const SweepUse& other = sweeps_.uses()[i];
-    return other.role == use.role && waiting_[other.last].stretch.tag == stretch.stretch.tag;
-  };
-  while (use.role == Role::RapidCutter && first > 0 && is_of_motion(first - 1)) --first;
-  while (use.role == Role::RapidCutter && last + 1 < sweeps_.uses().size() && is_of_motion(last + 1)) ++last;
-
-  const RevolvedBody& body = *sweeps_.sweeps()[sweep].body;
-  const auto meets_body = [&](const SweepPath& tip) { return meets(found, body, placed(*forms_, tip, use.role)); };
-  const Vec3 up = frame.axes.col(2);
-  ProgrammedMotion motion = stretch.programmed;
-  motion.from -= workpiece_.origin;
-  motion.to -= workpiece_.origin;
-  const Vec3 axis = axis_of(sweeps_.sweeps()[first].path);
-  const RaisedMotion raised(
-      motion, up,
-      {.axes_alone = !stretch.is_feed && machine_.motion.rapid_motion == kinematics::RapidMotion::Independent,
-       .starts_inside = meets_body(stock::StraightPath{{motion.from, axis}, motion.from})});
-  if (!raised.can_help()) return std::nullopt;
-
-  const double to_tip = part_of(use.role) == ToolPart::Nose ? -forms_->tool().length : 0;
-  std::vector<SweepPath> paths;
-  const auto is_free = [&](double rise) {
-    paths.clear();
-    for (std::size_t i = first; i <= last; ++i)
-      raised.append(shifted_along_axis(sweeps_.sweeps()[i].path, to_tip), rise, paths);
-    return std::none_of(paths.begin(), paths.end(),
-                        [&](const SweepPath& tip) { return meets_body(moved(tip, -margin * up)); });
-  };
-  double free = std::min(found.bounds().sizes().norm() + 1, raised.most_rise());
-  if (!is_free(free)) return std::nullopt;
-  for (double met = 0; free - met > 0.005;) {
-    const double middle = (met + free) / 2;
-    (is_free(middle) ? free : met) = middle;
-  }
-  return up.dot(stretch.programmed.to - frame.origin) + free;
 }
 
 void MaterialCheck::close(OpenIncident& episode) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/removal/closer_look.h"
 #include "interpreter/removal/incident.h"
 #include "interpreter/removal/kept_repeats.h"
 #include "interpreter/removal/motion_sweeps.h"
@@ -138,8 +139,6 @@ class MaterialCheck {
   void cut_before_open();
   void finish_tool();
   void cut_sweeps();
-  double from_of(const SweepUse& use, std::size_t stretch) const;
-  double to_of(const SweepUse& use, std::size_t stretch) const;
   double start_of_use(const SweepUse& use) const;
   double end_of_use(const SweepUse& use) const;
   RemovedByTool& work_of_tool();
@@ -148,23 +147,17 @@ class MaterialCheck {
   void touch(const IncidentKey& key, std::size_t sweep, const stock::SweepOutcome& outcome);
   void note_heights(const std::vector<bool>& has_cut);
   static bool does_height_help(const UncutStretch& stretch);
-  bool has_body_been_there(const stock::Stock& before, std::size_t sweep) const;
   void note_ways(const std::vector<bool>& has_cut);
   void end_way();
   void look_closely(stock::Stock before);
-  using HoldsOfPieces = std::function<bool(const std::vector<TipPath>& pieces)>;
-  double first_time(const SweepUse& use, int halvings, const HoldsOfPieces& holds) const;
-  void find_first_touch(OpenIncident& episode, std::size_t sweep, const stock::Stock& before);
-  double first_time_as_deep(std::size_t sweep, const stock::Stock& before, double depth) const;
+  CloserLook closer_look() const;
+  static void note_first_touch(OpenIncident& episode, double time);
   void find_worst(OpenIncident& episode, const stock::Stock& before);
-  std::optional<double> enough_level(std::size_t sweep, const stock::Stock& found, const geometry::Frame& frame,
-                                     double margin) const;
   void compare_with_target();
   void look_for_loose_pieces();
   void close(OpenIncident& episode);
   void close_all();
   void keep(Incident incident);
-  const solids::RevolvedBody* whole_body(ToolPart part) const;
   geometry::Vec3 in_machine(const geometry::Vec3& point) const { return point + workpiece_.origin; }
 
   Workpiece workpiece_;
