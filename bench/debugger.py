@@ -14,10 +14,12 @@ import time
 from pathlib import Path
 
 import editor
+import material
 
 BLOCKS_PER_SECOND = 500_000
 STEP_MS = 5.0
 PAUSE_MS = 20.0
+MATERIAL_STEP_MS = 50.0
 STEPS = 200
 PLACES = 20
 PAUSES = 20
@@ -125,6 +127,41 @@ def pause_times(program, file, seconds):
     return times
 
 
+def material_times(build, lines):
+    """With a blank that a flat cutter cuts: the first question near the end of the program, seconds; and steps back there and anywhere, each with what the
+    motion removes, ms."""
+    case = material.CASES[0]
+    back = []
+    with tempfile.TemporaryDirectory() as folder:
+        file = material.prepare(build, folder, case, lines)[-1]
+        adapter = launched(build / "bin/isodap", file, startAtLine=lines - 2 * STEPS)
+        adapter.run("configurationDone")
+
+        def removed():
+            frame = adapter.request("stackTrace", threadId=1)["stackFrames"][0]["id"]
+            return adapter.request("evaluate", expression="REMOVED", frameId=frame)["result"]
+
+        begin = time.perf_counter()
+        removed()
+        first = time.perf_counter() - begin
+
+        def steps_back(count):
+            for _ in range(count):
+                begin = time.perf_counter()
+                adapter.run("stepBack")
+                removed()
+                back.append(1000 * (time.perf_counter() - begin))
+
+        steps_back(STEPS)
+        for line in random.Random(editor.SEED).sample(range(10, lines - 10), PLACES):
+            target = adapter.request("gotoTargets", source={}, line=line)["targets"][0]["id"]
+            adapter.run("goto", targetId=target)
+            removed()
+            steps_back(STEPS // PLACES)
+        adapter.end()
+    return first, back
+
+
 def row(what, measured, target, is_met):
     print(f"| {what} | {measured} | {target} | {'yes' if is_met else '**no**'} |")
     return is_met
@@ -143,6 +180,7 @@ def measure(build, kind, lines):
         watched = run_seconds(isodap, file, many_breakpoints(lines))
         on, back = step_times(isodap, file, lines)
         pauses = pause_times(isodap, file, plain)
+    first, back_in_material = material_times(build, lines)
     print(f"\n{kind}, {lines} lines\n\n| what | measured | target | met |\n|---|---|---|---|")
     return all(
         [
@@ -150,6 +188,13 @@ def measure(build, kind, lines):
             row("1000 breakpoints, ten of them longer", f"{lines / watched:,.0f} blocks/s", f"at least {BLOCKS_PER_SECOND:,}", lines / watched >= BLOCKS_PER_SECOND),
             row("step", f"{statistics.median(on):.2f} ms, {max(on):.2f} ms at worst", f"at most {STEP_MS:g} ms", max(on) <= STEP_MS),
             row("step back", f"{statistics.median(back):.2f} ms, {max(back):.2f} ms at worst", f"at most {STEP_MS:g} ms", max(back) <= STEP_MS),
+            row("blank: the first question, late in the program", f"{first:.2f} s", "", True),
+            row(
+                "blank: step back, and what the motion removes",
+                f"{statistics.median(back_in_material):.2f} ms, {max(back_in_material):.2f} ms at worst",
+                f"at most {MATERIAL_STEP_MS:g} ms",
+                max(back_in_material) <= MATERIAL_STEP_MS,
+            ),
             row("pause", f"{statistics.median(pauses):.1f} ms, {max(pauses):.1f} ms at worst", f"at most {PAUSE_MS:g} ms", max(pauses) <= PAUSE_MS),
         ]
     )
