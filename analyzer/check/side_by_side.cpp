@@ -81,6 +81,7 @@ void Crew::help() {
     }
     const std::function<void()> task = std::move(tasks_.front());
     tasks_.pop_front();
+    changed_.notify_all();  // Who gives tasks may wait for this.
     is_running_ = true;
     lock.unlock();
     task();

@@ -16,6 +16,11 @@ using Role = SweepRole;
 
 /// How exactly the first touch is told, as a part of its stretch.
 static constexpr int kHalvings = 16;
+/// The same where each look cuts.
+static constexpr int kHalvingsOfCuts = 8;
+/// Lengths that do not count, and how much of a motion a rounded corner may take, mm.
+static constexpr double kNear = 0.01;
+static constexpr double kCorner = 0.2;
 
 ToolPart part_of(SweepRole role) {
   switch (role) {
@@ -115,7 +120,8 @@ double CloserLook::first_time(const SweepUse& use, int halvings, const HoldsOfPi
 double CloserLook::first_touch(std::size_t sweep, const Stock& before) const {
   const SweepUse& use = uses_[sweep];
   const Sweep& of = sweeps_[sweep];
-  return first_time(use, kHalvings, [&](const std::vector<TipPath>& pieces) {
+  const int halvings = use.role == Role::Cut ? kHalvingsOfCuts : kHalvings;
+  return first_time(use, halvings, [&](const std::vector<TipPath>& pieces) {
     return std::any_of(pieces.begin(), pieces.end(), [&](const TipPath& piece) {
       if (use.role != Role::Cut) return meets(before, *of.body, placed(setting_.forms, piece.path, use.role));
       Sweep part = of;
@@ -181,6 +187,17 @@ std::optional<double> CloserLook::enough_level(std::size_t sweep, const Stock& f
                             {.axes_alone = !stretch.is_feed && rapid_motion_ == kinematics::RapidMotion::Independent,
                              .starts_inside = meets_body(stock::StraightPath{{motion.from, axis}, motion.from})});
   if (!raised.can_help()) return std::nullopt;
+  // Of a slanted motion, or where the axis turns, a part that is less deep may need a higher end: all of it must be
+  // known.
+  const SweepPath& path = sweeps_[sweep].path;
+  const SweepPath tip_path =
+      shifted_along_axis(path, part_of(use.role) == ToolPart::Nose ? -setting_.forms.tool().length : 0);
+  const Vec3 way = motion.to - motion.from;
+  const bool is_slanted = std::abs(up.dot(way)) > kNear && up.cross(way).norm() > kNear;
+  const bool is_whole =
+      (start_of(tip_path).origin - motion.from).norm() < kCorner && (end_of(tip_path) - motion.to).norm() < kCorner;
+  const bool varies = is_slanted || std::holds_alternative<stock::TurningPath>(path);
+  if (use.role != Role::RapidCutter && varies && !is_whole) return std::nullopt;
 
   const double to_tip = part_of(use.role) == ToolPart::Nose ? -setting_.forms.tool().length : 0;
   std::vector<SweepPath> paths;

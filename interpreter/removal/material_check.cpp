@@ -642,7 +642,11 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
   const Stock& found = is_of_rapids ? *episode.before : before;
   const bool lies = is_lying(up) || is_lying(axis_of(path));
   if (!lies) {
-    incident.worst_time = look.first_time_as_deep(index, before, incident.amount);
+    // On the way up, the place before it counts. Where a block ends, the next one begins, and its line would be shown.
+    if (incident.worst_line == waiting_[use.last].line) {
+      const double time = look.first_time_as_deep(index, before, incident.amount);
+      incident.worst_time = std::max(start_of_use(use), std::min(time, end_of_use(use) - 1e-6));
+    }
     tell_exactly(incident);
   }
   incident.enough.reset();

@@ -17,10 +17,13 @@ static constexpr double kSameHeight = 1e-6;
 RaisedMotion::RaisedMotion(const ProgrammedMotion& motion, const Vec3& up, const Kind& kind)
     : motion_(motion), up_(up) {
   const double rise = height(motion.to) - height(motion.from);
-  if (kind.starts_inside || std::abs(rise) < kSameHeight) {
+  if (rise > kSameHeight) return;
+  if (kind.starts_inside || rise > -kSameHeight) {
     way_ = Way::Level;
-  } else if (rise < 0 && motion.is_line) {
-    way_ = kind.axes_alone ? Way::AxesAlone : Way::Line;
+  } else if (motion.is_line && !kind.axes_alone) {
+    way_ = Way::Line;
+  } else if (motion.is_line && up.z() > 1 - kSameHeight) {
+    way_ = Way::AxesAlone;  // Along another direction than Z, an axis that arrives first leads lower than the end.
   }
 }
 
@@ -40,8 +43,14 @@ void RaisedMotion::append(const SweepPath& tip, double rise, std::vector<SweepPa
   if (way_ == Way::Level) return paths.push_back(moved(tip, rise * up_));
   if (const auto* const turning = std::get_if<stock::TurningPath>(&tip)) {
     stock::TurningPath path = *turning;
-    path.from.origin = raised(path.from.origin, rise);
-    path.to.origin = raised(path.to.origin, rise);
+    path.from.origin = raised(turning->from.origin, rise);
+    path.to.origin = raised(turning->to.origin, rise);
+    if (way_ == Way::AxesAlone) {  // Between them it may be as little higher as at the lower one.
+      const double least =
+          std::min(height(path.from.origin - turning->from.origin), height(path.to.origin - turning->to.origin));
+      path.from.origin = turning->from.origin + least * up_;
+      path.to.origin = turning->to.origin + least * up_;
+    }
     return paths.push_back(path);
   }
   const Vec3 from = start_of(tip).origin;

@@ -233,6 +233,17 @@ TEST(Material, TheZThatIsToldIsEnough) {
     }
 }
 
+/// A flat holder goes down in three motions and out in one, on which it meets the most.
+TEST(Material, TheWayOutSaysNothingOfTheZ) {
+  Bench bench;
+  const solids::StackRow flange{.height = 8, .lower_diameter = 50, .upper_diameter = 50};
+  bench.scene.tools[Shop::kTool].holder = Shop::body(solids::stacked_body({&flange, 1}, 60));
+  const VerifiedRun run = bench.cut("G00 X350 Y150 Z90\nG01 Z-25 F1000\nZ-35\nZ-45\nG00 Z90\n");
+  ASSERT_FALSE(run.contacts.empty());
+  // The holder is 60 mm above the tip, and the face at Z40.
+  for (const Contact& each : run.contacts) EXPECT_NEAR(each.enough.value_or(-20), -20, 0.2) << each.line;
+}
+
 TEST(Material, NoZIsToldWhereTheStartIsTooLow) {
   // Up through the edge of the block, from beside it.
   const VerifiedRun run = Bench().cut("G00 X250 Y150 Z90\nZ30\nX500 Z60\nG00 Z90\n");
