@@ -19,6 +19,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "bench"))
+
+from compare import on_one_processor  # noqa: E402
+
 EXAMPLES = ROOT / "examples"
 PROGRAMS = Path()
 # What may fail while a file is written or read, and how.
@@ -135,8 +139,8 @@ def run(command: Command, strace: list[str]) -> Run:
         for file, text in command.files.items():
             (folder / file).parent.mkdir(exist_ok=True)
             (folder / file).write_bytes(text)
-        # One processor, one thread: the same calls in each run.
-        argv = ["taskset", "-c", "0", "strace", "-f", "-qq", *strace, str(PROGRAMS / command.argv[0]), *command.argv[1:]]
+        # One thread: the same calls in each run.
+        argv = on_one_processor(["strace", "-f", "-qq", *strace, str(PROGRAMS / command.argv[0]), *command.argv[1:]])
         done = subprocess.run(argv, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, timeout=120, check=False)
         return Run(done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace"), snapshot(folder))
 
