@@ -72,15 +72,23 @@ bool meets(const Stock& stock, const RevolvedBody& body, const SweepPath& path) 
   return asked(stock, body, path, SweepPurpose::Find).meets();
 }
 
-std::optional<double> enough_rise(const Stock& stock, const RevolvedBody& body, const SweepPath& path, const Vec3& up) {
-  const auto is_free = [&](double rise) { return !meets(stock, body, moved(path, rise * up)); };
-  double free = stock.bounds().sizes().norm() + 1;
-  if (!is_free(free)) return std::nullopt;
+/// The least rise that is free of material, of those up to `most` mm; none if that is not.
+template <class IsFree>
+static std::optional<double> least_free_rise(double most, IsFree is_free) {
+  if (!is_free(most)) return std::nullopt;
+  double free = most;
   for (double met = 0; free - met > 0.005;) {
     const double middle = (met + free) / 2;
     (is_free(middle) ? free : met) = middle;
   }
   return free;
+}
+
+/// A rise that leads above all of a stock, mm.
+static double rise_above(const Stock& stock) { return stock.bounds().sizes().norm() + 1; }
+
+std::optional<double> enough_rise(const Stock& stock, const RevolvedBody& body, const SweepPath& path, const Vec3& up) {
+  return least_free_rise(rise_above(stock), [&](double rise) { return !meets(stock, body, moved(path, rise * up)); });
 }
 
 CloserLook::CloserLook(const SweepSetting& setting, kinematics::RapidMotion rapid_motion, const MotionSweeps& sweeps,
@@ -90,6 +98,11 @@ CloserLook::CloserLook(const SweepSetting& setting, kinematics::RapidMotion rapi
       sweeps_(sweeps.sweeps()),
       uses_(sweeps.uses()),
       waiting_(waiting) {}
+
+SweepPath CloserLook::tip_path(std::size_t sweep) const {
+  const bool is_nose = part_of(uses_[sweep].role) == ToolPart::Nose;
+  return shifted_along_axis(sweeps_[sweep].path, is_nose ? -setting_.forms.tool().length : 0);
+}
 
 /// When something begins to hold of the pieces of the tip's path, workpiece frame, from the start of a sweep's
 /// stretches on, seconds; where it never does, at their end. To the `halvings`th part of one half of a stretch.
@@ -189,31 +202,24 @@ std::optional<double> CloserLook::enough_level(std::size_t sweep, const Stock& f
   if (!raised.can_help()) return std::nullopt;
   // Of a slanted motion, or where the axis turns, a part that is less deep may need a higher end: all of it must be
   // known.
-  const SweepPath& path = sweeps_[sweep].path;
-  const SweepPath tip_path =
-      shifted_along_axis(path, part_of(use.role) == ToolPart::Nose ? -setting_.forms.tool().length : 0);
+  const SweepPath tip = tip_path(sweep);
   const Vec3 way = motion.to - motion.from;
   const bool is_slanted = std::abs(up.dot(way)) > kNear && up.cross(way).norm() > kNear;
   const bool is_whole =
-      (start_of(tip_path).origin - motion.from).norm() < kCorner && (end_of(tip_path) - motion.to).norm() < kCorner;
-  const bool varies = is_slanted || std::holds_alternative<stock::TurningPath>(path);
+      (start_of(tip).origin - motion.from).norm() < kCorner && (end_of(tip) - motion.to).norm() < kCorner;
+  const bool varies = is_slanted || std::holds_alternative<stock::TurningPath>(tip);
   if (use.role != Role::RapidCutter && varies && !is_whole) return std::nullopt;
 
-  const double to_tip = part_of(use.role) == ToolPart::Nose ? -setting_.forms.tool().length : 0;
   std::vector<SweepPath> paths;
   const auto is_free = [&](double rise) {
     paths.clear();
-    for (std::size_t i = first; i <= last; ++i) raised.append(shifted_along_axis(sweeps_[i].path, to_tip), rise, paths);
+    for (std::size_t i = first; i <= last; ++i) raised.append(tip_path(i), rise, paths);
     return std::none_of(paths.begin(), paths.end(),
-                        [&](const SweepPath& tip) { return meets_body(moved(tip, -margin * up)); });
+                        [&](const SweepPath& each) { return meets_body(moved(each, -margin * up)); });
   };
-  double free = std::min(found.bounds().sizes().norm() + 1, raised.most_rise());
-  if (!is_free(free)) return std::nullopt;
-  for (double met = 0; free - met > 0.005;) {
-    const double middle = (met + free) / 2;
-    (is_free(middle) ? free : met) = middle;
-  }
-  return up.dot(stretch.programmed.to - frame.origin) + free;
+  const std::optional<double> rise = least_free_rise(std::min(rise_above(found), raised.most_rise()), is_free);
+  if (!rise) return std::nullopt;
+  return up.dot(stretch.programmed.to - frame.origin) + *rise;
 }
 
 }  // namespace isocnc::removal

@@ -39,6 +39,8 @@ class CloserLook {
   CloserLook(const SweepSetting& setting, kinematics::RapidMotion rapid_motion, const MotionSweeps& sweeps,
              std::span<const UncutStretch> waiting);
 
+  /// The way of the tip, also where another body is what is swept.
+  stock::SweepPath tip_path(std::size_t sweep) const;
   /// When a body first meets material, or a cut is first too deep, seconds.
   double first_touch(std::size_t sweep, const stock::Stock& before) const;
   /// When the whole body is first as deep as it gets, seconds.

@@ -631,9 +631,7 @@ void MaterialCheck::find_worst(OpenIncident& episode, const Stock& before) {
       break;
   }
   const Vec3 up = incident.frame.axes.col(2);
-  // Of the tip, also where another body is in the material.
-  const bool is_nose = use.role == Role::Nose || use.role == Role::NoseNear;
-  const double lowest = lowest_along(is_nose ? shifted_along_axis(path, -forms_->tool().length) : path, up);
+  const double lowest = lowest_along(look.tip_path(index), up);
   incident.level = lowest + up.dot(workpiece_.origin - incident.frame.origin);
   const bool is_hit = incident.kind == IncidentKind::RapidInMaterial || incident.kind == IncidentKind::BodyInMaterial;
   if (!is_hit) return;

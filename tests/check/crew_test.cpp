@@ -43,17 +43,20 @@ TEST(Crew, TasksAreDoneInTheirOrder) {
   for (int i = 0; i < 500; ++i) EXPECT_EQ(done[static_cast<std::size_t>(i)], i);
 }
 
+/// Ends once two threads take part.
+void meet(Crew& crew, std::atomic<int>& present) {
+  crew.together([&] {
+    ++present;
+    while (present < 2) std::this_thread::yield();
+  });
+}
+
 /// Whoever waits takes part: the first thread goes on only when the second one
 /// has come.
 TEST(Crew, WhoWaitsHelps) {
   Crew crew(2);
   std::atomic<int> present = 0;
-  crew.start([&] {
-    crew.together([&] {
-      ++present;
-      while (present < 2) std::this_thread::yield();
-    });
-  });
+  crew.start([&] { meet(crew, present); });
   crew.wait();
   EXPECT_EQ(present, 2);
 }
@@ -63,12 +66,7 @@ TEST(Crew, WhoWaitsHelps) {
 TEST(Crew, WhoGivesManyTasksHelps) {
   Crew crew(2);
   std::atomic<int> present = 0;
-  crew.start([&] {
-    crew.together([&] {
-      ++present;
-      while (present < 2) std::this_thread::yield();
-    });
-  });
+  crew.start([&] { meet(crew, present); });
   for (int i = 0; i < 40; ++i) crew.start([] {});
   EXPECT_EQ(present, 2);
   crew.wait();
