@@ -13,15 +13,44 @@ bool has_direction(const Vec3& vector) { return vector.norm() >= kZeroVector; }
 
 bool are_coplanar(const Mat3& unit_axes) { return std::abs(unit_axes.determinant()) < kZeroVector; }
 
+/// Returns a polynomial of z by Horner's scheme, the highest coefficient first.
+template <std::size_t kCount>
+static double polynomial(const double (&coefficients)[kCount], double z) {
+  double sum = coefficients[0];
+  for (std::size_t i = 1; i < kCount; ++i) sum = sum * z + coefficients[i];
+  return sum;
+}
+
+/// The Taylor series of sine and cosine at 45 degrees at most, where what is left out is below half the last digit. The
+/// library's functions take more than twice as long, and differ from platform to platform.
+static SineCosine near_zero(double radians) {
+  static constexpr double kSine[] = {1 / 355687428096000.0, -1 / 1307674368000.0, 1 / 6227020800.0, -1 / 39916800.0,
+                                     1 / 362880.0,          -1 / 5040.0,          1 / 120.0,        -1 / 6.0};
+  static constexpr double kCosine[] = {1 / 20922789888000.0, -1 / 87178291200.0, 1 / 479001600.0, -1 / 3628800.0,
+                                       1 / 40320.0,          -1 / 720.0,         1 / 24.0,        -1 / 2.0};
+  const double z = radians * radians;
+  return {.sine = radians + radians * z * polynomial(kSine, z), .cosine = 1 + z * polynomial(kCosine, z)};
+}
+
 SineCosine sine_and_cosine(double degrees) {
-  const double quarters = degrees / 90;
-  if (quarters == std::floor(quarters) && std::abs(quarters) < 1e9) {
-    static constexpr double kSines[] = {0, 1, 0, -1};
-    const int quarter = static_cast<int>(((static_cast<long long>(quarters) % 4) + 4) % 4);
-    return {.sine = kSines[quarter], .cosine = kSines[(quarter + 1) % 4]};
+  static constexpr double kMaxDegrees = 1e9;
+  if (!(std::abs(degrees) < kMaxDegrees)) {
+    const double radians = degrees * std::numbers::pi / 180;
+    return {.sine = std::sin(radians), .cosine = std::cos(radians)};
   }
-  const double radians = degrees * std::numbers::pi / 180;
-  return {.sine = std::sin(radians), .cosine = std::cos(radians)};
+  // The quarter turns are subtracted without an error of rounding.
+  const auto quarters = static_cast<long long>(degrees * (1 / 90.0) + (degrees < 0 ? -0.5 : 0.5));
+  const auto [sine, cosine] = near_zero((degrees - 90 * static_cast<double>(quarters)) * (std::numbers::pi / 180));
+  switch (quarters & 3) {  // 0 + and 0 -, for no zero to have a sign.
+    case 0:
+      return {.sine = 0 + sine, .cosine = cosine};
+    case 1:
+      return {.sine = cosine, .cosine = 0 - sine};
+    case 2:
+      return {.sine = 0 - sine, .cosine = -cosine};
+    default:
+      return {.sine = -cosine, .cosine = 0 + sine};
+  }
 }
 
 Mat3 axes_from_angles(double b_deg, double c_deg) {

@@ -63,6 +63,35 @@ Mat3 axes_by_trigonometry(double b_deg, double c_deg) {
   return axes;
 }
 
+/// Beside the library's functions of long double, to two of the last digits.
+TEST(SineAndCosine, AreAsExactAsTheLibrary) {
+  for (const std::uint64_t seed : support::seeds(5'000)) {
+    Random random(seed);
+    for (const double range : {1e-6, 46.0, 360.0, 1e6, 1e12}) {
+      const double degrees = random.real(-range, range);
+      const auto radians =
+          static_cast<long double>(std::remainder(degrees, 360.0)) * std::numbers::pi_v<long double> / 180;
+      const auto [sine, cosine] = sine_and_cosine(degrees);
+      const double last_digit = range < 1e9 ? 1.2e-16 : 1e-2;  // Beyond, the angle itself is known to no better.
+      EXPECT_NEAR(sine, static_cast<double>(std::sin(radians)), 2 * last_digit) << degrees;
+      EXPECT_NEAR(cosine, static_cast<double>(std::cos(radians)), 2 * last_digit) << degrees;
+    }
+  }
+}
+
+/// Without 6e-17, and without a zero that is printed with a minus.
+TEST(SineAndCosine, AreExactAtQuarterTurns) {
+  constexpr double kSines[] = {0, 1, 0, -1};
+  for (int quarter = -9; quarter <= 9; ++quarter) {
+    const auto [sine, cosine] = sine_and_cosine(quarter * 90.0);
+    const auto at = static_cast<std::size_t>((quarter + 12) % 4);
+    EXPECT_EQ(sine, kSines[at]) << quarter;
+    EXPECT_EQ(cosine, kSines[(at + 1) % 4]) << quarter;
+    EXPECT_FALSE((sine == 0 && std::signbit(sine)) || (cosine == 0 && std::signbit(cosine))) << quarter;
+  }
+  EXPECT_FALSE(std::signbit(sine_and_cosine(-0.0).sine));
+}
+
 TEST(AxesFromAngles, AreThoseOfPlainTrigonometry) {
   for (const std::uint64_t seed : support::seeds(2'000)) {
     Random random(seed);
