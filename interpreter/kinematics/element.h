@@ -33,9 +33,14 @@ struct Element {
   /// First derivative of the blend's path where it meets a rounded end of an arc; absent at ends without a blend.
   std::optional<Coordinates> slope_at_begin;
   std::optional<Coordinates> slope_at_end;
+  /// Derivatives of the joints where a blend of the tip meets the rounded end of a line; absent at other ends.
+  std::optional<Derivatives> joints_at_begin;
+  std::optional<Derivatives> joints_at_end;
   std::uint64_t tag = 0;   ///< Move::tag of the move.
   bool ends_move = false;  ///< Whether this is the last element of its move.
   bool stops = false;      ///< Whether the machine stops exactly at the element's end (G09).
+
+  bool is_arc() const { return path.kind == PathKind::Circle; }
 };
 
 /// The path of a whole move, before it is cut into elements and rounded.

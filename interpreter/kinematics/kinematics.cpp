@@ -32,8 +32,8 @@ struct AngleJet {
   double second = 0;
 };
 
-static AngleJet angle(const Jet& jet, MachineAxis axis, double sense) {
-  return {sense * jet.value[axis], sense * jet.first[axis] * kRadians, sense * jet.second[axis] * kRadians};
+static AngleJet angle(const Jet& jet, MachineAxis axis) {
+  return {jet.value[axis], jet.first[axis] * kRadians, jet.second[axis] * kRadians};
 }
 
 static VectorJet linear(const Jet& jet) { return {jet.value.head<3>(), jet.first.head<3>(), jet.second.head<3>()}; }
@@ -72,10 +72,6 @@ static VectorJet turn(const AngleJet& angle, const VectorJet& v) {
               2 * angle.first * Axis::across(slope) + Axis::turned(by, v.second)};
 }
 
-static VectorJet turn_about_z(const AngleJet& c, const VectorJet& v) { return turn<AboutZ>(c, v); }
-
-static VectorJet turn_about_y(const AngleJet& b, const VectorJet& v) { return turn<AboutY>(b, v); }
-
 static VectorJet shifted(VectorJet v, const Vec3& by) {
   v.value += by;
   return v;
@@ -86,14 +82,6 @@ static Vec3 tool(double length) { return {0, 0, length}; }
 /// Returns the vector from the spindle nose to the B axis of a head at B = C = 0, mm.
 static Vec3 arm(const Kinematics& k) { return tool(k.pivot) - k.spindle_from_b; }
 
-/// Returns the vector of a head from the tip to the position of the spindle nose at B = C = 0, mm. It depends on B and
-/// C alone: from the tip up to the B axis and on to the C axis as B and C have turned them, and back down as at B = C =
-/// 0.
-static VectorJet head_reach(const Kinematics& k, const Jet& jet, double tool_length) {
-  const VectorJet to_b = turn_about_y(angle(jet, kB, 1), {.value = arm(k) + tool(tool_length)});
-  return shifted(turn_about_z(angle(jet, kC, 1), shifted(to_b, -k.b_from_c)), k.b_from_c - arm(k));
-}
-
 static Jet with_linear(const Jet& jet, const VectorJet& linear) {
   Jet result = jet;
   result.value.head<3>() = linear.value;
@@ -102,41 +90,101 @@ static Jet with_linear(const Jet& jet, const VectorJet& linear) {
   return result;
 }
 
-static VectorJet sum(const VectorJet& a, const VectorJet& b, double sign) {
-  return {a.value + sign * b.value, a.first + sign * b.first, a.second + sign * b.second};
-}
-
-Jet inverse(const Kinematics& k, const Jet& tip, double tool_length) {
-  switch (k.kind) {
+InverseAt::InverseAt(const Kinematics& kinematics, const Coordinates& tip, double tool_length)
+    : kind_(kinematics.kind), joints_(tip) {
+  switch (kind_) {
     case MachineKind::ThreeAxis:
-      return with_linear(tip, shifted(linear(tip), tool(tool_length)));
+      joints_[kZ] += tool_length;
+      break;
     case MachineKind::Head:
-      return with_linear(tip, sum(linear(tip), head_reach(k, tip, tool_length), 1));
+      set_head(kinematics, tool_length);
+      break;
     case MachineKind::Table:
+      set_table(kinematics, tool_length);
       break;
   }
-  const VectorJet turned = turn_about_z(angle(tip, kC, -1), shifted(linear(tip), -k.c_point));
-  const VectorJet tilted = turn_about_y(angle(tip, kB, -1), shifted(turned, k.c_point - k.b_point));
-  return with_linear(tip, shifted(tilted, k.b_point + tool(tool_length)));
+}
+
+/// From the tip up to the B axis and on to the C axis as B and C have turned them, and back down as at B = C = 0.
+void InverseAt::set_head(const Kinematics& k, double tool_length) {
+  const geometry::SineCosine b = geometry::sine_and_cosine(joints_[kB]);
+  const geometry::SineCosine c = geometry::sine_and_cosine(joints_[kC]);
+  const Vec3 to_b = AboutY::turned(b, arm(k) + tool(tool_length));
+  const Vec3 to_b_turning = AboutY::across(to_b);
+  const Vec3 to_c = to_b - k.b_from_c;
+  joints_.head<3>() += AboutZ::turned(c, to_c) + k.b_from_c - arm(k);
+  by_b_ = kRadians * AboutZ::turned(c, to_b_turning);
+  by_c_ = kRadians * AboutZ::turned(c, AboutZ::across(to_c));
+  by_b_b_ = square(kRadians) * AboutZ::turned(c, AboutY::across(to_b_turning));
+  by_b_c_ = square(kRadians) * AboutZ::turned(c, AboutZ::across(to_b_turning));
+  by_c_c_ = square(kRadians) * AboutZ::turned(c, AboutZ::across(AboutZ::across(to_c)));
+}
+
+/// The table turns back what the program turns: B and C count the other way.
+void InverseAt::set_table(const Kinematics& k, double tool_length) {
+  const geometry::SineCosine b = geometry::sine_and_cosine(-joints_[kB]);
+  const geometry::SineCosine c = geometry::sine_and_cosine(-joints_[kC]);
+  const Vec3 turned = AboutZ::turned(c, joints_.head<3>() - k.c_point);
+  const Vec3 tilted = AboutY::turned(b, turned + k.c_point - k.b_point);
+  const Vec3 turning = AboutY::turned(b, AboutZ::across(turned));
+  joints_.head<3>() = tilted + k.b_point + tool(tool_length);
+  by_b_ = -kRadians * AboutY::across(tilted);
+  by_c_ = -kRadians * turning;
+  by_b_b_ = square(kRadians) * AboutY::across(AboutY::across(tilted));
+  by_b_c_ = square(kRadians) * AboutY::across(turning);
+  by_c_c_ = square(kRadians) * AboutY::turned(b, AboutZ::across(AboutZ::across(turned)));
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 direction = AboutZ::turned(c, Vec3::Unit(axis));
+    by_tip_.col(axis) = AboutY::turned(b, direction);
+    by_tip_b_.col(axis) = -kRadians * AboutY::across(by_tip_.col(axis));
+    by_tip_c_.col(axis) = -kRadians * AboutY::turned(b, AboutZ::across(direction));
+  }
+}
+
+Derivatives InverseAt::derivatives(const Derivatives& tip) const {
+  Derivatives result = tip;
+  if (kind_ == MachineKind::ThreeAxis) return result;
+  const double b = tip.first[kB];
+  const double c = tip.first[kC];
+  const Vec3 slope = b * by_b_ + c * by_c_;
+  const Vec3 bend =
+      tip.second[kB] * by_b_ + tip.second[kC] * by_c_ + b * b * by_b_b_ + 2 * b * c * by_b_c_ + c * c * by_c_c_;
+  if (kind_ == MachineKind::Head) {
+    result.first.head<3>() += slope;
+    result.second.head<3>() += bend;
+    return result;
+  }
+  const Vec3 first = tip.first.head<3>();
+  const Vec3 second = tip.second.head<3>();
+  result.first.head<3>() = by_tip_ * first + slope;
+  result.second.head<3>() = by_tip_ * second + bend + 2 * b * (by_tip_b_ * first) + 2 * c * (by_tip_c_ * first);
+  return result;
+}
+
+Jet inverse(const Kinematics& kinematics, const Jet& tip, double tool_length) {
+  const InverseAt at(kinematics, tip.value, tool_length);
+  const Derivatives joints = at.derivatives(tip.derivatives());
+  return {at.joints(), joints.first, joints.second};
+}
+
+/// Of a table: undoes the tilt, then the turn.
+static VectorJet tip_on_table(const Kinematics& k, const Jet& joints, double tool_length) {
+  const VectorJet nose = shifted(linear(joints), -(k.b_point + tool(tool_length)));
+  const VectorJet tilted = turn<AboutY>(angle(joints, kB), nose);
+  return shifted(turn<AboutZ>(angle(joints, kC), shifted(tilted, k.b_point - k.c_point)), k.c_point);
 }
 
 Jet forward(const Kinematics& k, const Jet& joints, double tool_length) {
-  switch (k.kind) {
-    case MachineKind::ThreeAxis:
-      return with_linear(joints, shifted(linear(joints), -tool(tool_length)));
-    case MachineKind::Head:
-      return with_linear(joints, sum(linear(joints), head_reach(k, joints, tool_length), -1));
-    case MachineKind::Table:
-      break;
-  }
-  const VectorJet nose = shifted(linear(joints), -(k.b_point + tool(tool_length)));
-  const VectorJet tilted = turn_about_y(angle(joints, kB, 1), nose);
+  if (k.kind == MachineKind::Table) return with_linear(joints, tip_on_table(k, joints, tool_length));
+  // Elsewhere the joints are the tip and what B and C add to it.
+  const Jet added = inverse(k, with_linear(joints, {}), tool_length);
   return with_linear(joints,
-                     shifted(turn_about_z(angle(joints, kC, 1), shifted(tilted, k.b_point - k.c_point)), k.c_point));
+                     {joints.value.head<3>() - added.value.head<3>(), joints.first.head<3>() - added.first.head<3>(),
+                      joints.second.head<3>() - added.second.head<3>()});
 }
 
 Coordinates inverse(const Kinematics& kinematics, const Coordinates& tip, double tool_length) {
-  return inverse(kinematics, Jet{.value = tip}, tool_length).value;
+  return InverseAt(kinematics, tip, tool_length).joints();
 }
 
 Coordinates forward(const Kinematics& kinematics, const Coordinates& joints, double tool_length) {

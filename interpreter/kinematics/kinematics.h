@@ -20,11 +20,19 @@ Coordinates inverse(const Kinematics& kinematics, const Coordinates& tip, double
 /// Forward kinematics: returns the pose of the tip for given positions of the joints. The function undoes inverse().
 Coordinates forward(const Kinematics& kinematics, const Coordinates& joints, double tool_length);
 
+/// The first two derivatives by the path parameter.
+struct Derivatives {
+  Coordinates first = Coordinates::Zero();
+  Coordinates second = Coordinates::Zero();
+};
+
 /// A value and its first two derivatives by the path parameter.
 struct Jet {
   Coordinates value = Coordinates::Zero();
   Coordinates first = Coordinates::Zero();
   Coordinates second = Coordinates::Zero();
+
+  Derivatives derivatives() const { return {first, second}; }
 };
 
 /// Applies inverse() along a path, with derivatives by the chain rule.
@@ -32,6 +40,34 @@ Jet inverse(const Kinematics& kinematics, const Jet& tip, double tool_length);
 
 /// Applies forward() along a path, with derivatives by the chain rule.
 Jet forward(const Kinematics& kinematics, const Jet& joints, double tool_length);
+
+/// Inverse kinematics at one pose of the tip. Several paths through it share what depends on the pose alone.
+class InverseAt {
+ public:
+  InverseAt(const Kinematics& kinematics, const Coordinates& tip, double tool_length);
+
+  /// Returns the positions of the joints.
+  const Coordinates& joints() const { return joints_; }
+  /// Returns the derivatives of the joints along a path of the tip with these derivatives at the pose.
+  Derivatives derivatives(const Derivatives& tip) const;
+
+ private:
+  void set_head(const Kinematics& kinematics, double tool_length);
+  void set_table(const Kinematics& kinematics, double tool_length);
+
+  MachineKind kind_;
+  Coordinates joints_;
+  /// Partial derivatives of X, Y, Z by B and C, mm and mm^2 for a degree.
+  geometry::Vec3 by_b_;
+  geometry::Vec3 by_c_;
+  geometry::Vec3 by_b_b_;
+  geometry::Vec3 by_b_c_;
+  geometry::Vec3 by_c_c_;
+  /// Of a table: partial derivatives of X, Y, Z by the tip, and of these by B and C.
+  geometry::Mat3 by_tip_;
+  geometry::Mat3 by_tip_b_;
+  geometry::Mat3 by_tip_c_;
+};
 
 /// Returns the rotation that turns a direction of the tip into that of the joints X, Y, Z while B and C rest.
 geometry::Mat3 turn_to_joints(const Kinematics& kinematics, double b_deg, double c_deg);

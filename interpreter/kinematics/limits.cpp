@@ -9,6 +9,11 @@ namespace isocnc::kinematics {
 
 /// Maximum second and third derivative that count as straight, 1/mm and 1/mm^2.
 static constexpr double kStraight = 1e-15;
+/// Maximum part of an axis's acceleration that is given up where the bounds at both ends of a piece become one.
+static constexpr double kSameBound = 1e-3;
+/// Maximum part of a cap that the slack between the ends of a path may take; else the path is looked at in parts.
+static constexpr double kMaxSlack = 0.005;
+static constexpr int kSlackParts = 4;
 
 LineLimits line_limits(const Machine& machine, const Coordinates& joint_slope) {
   double speed = kInfinity;
@@ -112,24 +117,14 @@ LineLimits smoothed_limits(const Machine& machine, const Smoothing& smoothing, c
   return result;
 }
 
-namespace {
-
-/// By how much a joint's first two derivatives deviate at most from the straight line between the ends of a piece.
-struct Slack {
-  double first = 0;
-  double second = 0;
-};
-
-Slack slack_of(int axis, const HigherDerivativeBounds& higher, double length) {
+static Slack slack_of(int axis, const HigherDerivativeBounds& higher, double length) {
   if (axis >= kB) return {};
   const double bulge = square(length) / 8;
   return {bulge * higher.third[axis], bulge * higher.fourth[axis]};
 }
 
-}  // namespace
-
 /// Returns the maximum of x by the speeds and accelerations of the axes on a piece of a curve.
-static double cap_between(const Machine& machine, const Jet& begin, const Jet& end,
+static double cap_between(const Machine& machine, const Derivatives& begin, const Derivatives& end,
                           const HigherDerivativeBounds& higher, double length) {
   double by_speed = 0;         // Inverse of the maximum of ds/dt.
   double by_acceleration = 0;  // Inverse of the maximum of x.
@@ -144,38 +139,64 @@ static double cap_between(const Machine& machine, const Jet& begin, const Jet& e
   return 1 / std::max(square(by_speed), by_acceleration);
 }
 
-CurveLimits::CurveLimits(const Machine& machine, const Jet& begin, const Jet& end, const HigherDerivativeBounds& higher,
-                         double length)
+CurveLimits::CurveLimits(const Machine& machine, const Derivatives& begin, const Derivatives& end,
+                         const HigherDerivativeBounds& higher, double length)
     : length_(length), cap_(cap_between(machine, begin, end, higher, length)) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
+    const double first[] = {begin.first[axis], end.first[axis]};
+    const double second[] = {begin.second[axis], end.second[axis]};
     const Slack slack = slack_of(axis, higher, length);
-    const auto rests = [&](const Jet& jet) { return jet.first[axis] == 0 && jet.second[axis] == 0; };
-    if (rests(begin) && rests(end) && slack.first == 0) continue;
+    if (first[0] == 0 && first[1] == 0 && second[0] == 0 && second[1] == 0 && slack.first == 0) continue;
     const double part = 1 / machine.axes[static_cast<std::size_t>(axis)].acceleration;
-    for (const Jet* const jet : {&begin, &end}) {
-      const double first = jet->first[axis];
-      const double second = jet->second[axis];
-      add(forward_, part * (slack.second + second), part * (slack.first + first));
-      add(forward_, part * (slack.second - second), part * (slack.first - first));
-      add(backward_, part * (slack.second + second), part * (slack.first - first));
-      add(backward_, part * (slack.second - second), part * (slack.first + first));
+    const geometry::Range slope{std::min(first[0], first[1]), std::max(first[0], first[1])};
+    const geometry::Range bend{std::min(second[0], second[1]), std::max(second[0], second[1])};
+    const bool are_alike = (bend.maximum - bend.minimum) * part * cap_ <= kSameBound &&
+                           slope.maximum - slope.minimum <= kSameBound * std::abs(first[0]);
+    if (are_alike) {
+      add(part, slope, bend, slack);
+    } else {
+      add(part, {first[0], first[0]}, {second[0], second[0]}, slack);
+      add(part, {first[1], first[1]}, {second[1], second[1]}, slack);
     }
   }
 }
 
-/// Adds a bound. Bounds with n <= 0 are omitted, since they hold for every x within the cap.
-void CurveLimits::add(Bounds& bounds, double m, double n) const {
-  if (n > 0) bounds.bounds[bounds.count++] = {m, n, 1 / (n + 2 * length_ * std::max(m, 0.0))};
+/// Adds the bounds of an axis with these derivatives, both multiplied by `part`. Bounds with n <= 0 are omitted, since
+/// they hold for every x within the cap.
+void CurveLimits::add(double part, const geometry::Range& slope, const geometry::Range& bend, const Slack& slack) {
+  const double ahead = part * (slack.first + slope.maximum);
+  const double back = part * (slack.first - slope.minimum);
+  const double bend_up = part * (slack.second + bend.maximum);
+  const double bend_down = part * (slack.second - bend.minimum);
+  const auto append = [&](Bounds& bounds, double m, double n) {
+    bounds.bounds[bounds.count++] = {m, n, 1 / (n + 2 * length_ * std::max(m, 0.0))};
+  };
+  if (ahead > 0) {
+    append(forward_, bend_up, ahead);
+    append(backward_, bend_down, ahead);
+  }
+  if (back > 0) {
+    append(forward_, bend_down, back);
+    append(backward_, bend_up, back);
+  }
 }
 
-double curve_cap(const Machine& machine, const Path& path, double length, int count) {
+double curve_cap(const Machine& machine, const Derivatives& begin, const Derivatives& end) {
+  return cap_between(machine, begin, end, {}, 0);
+}
+
+double curve_cap(const Machine& machine, const Path& path, double length, const Derivatives& begin,
+                 const Derivatives& end) {
+  const Kinematics& kinematics = machine.kinematics;
+  const double whole = cap_between(machine, begin, end, higher_derivative_bounds(kinematics, path, 0, length), length);
+  if (whole >= (1 - kMaxSlack) * curve_cap(machine, begin, end)) return whole;
   double cap = kInfinity;
   double from = 0;
-  Jet at_from = path.joints_at(machine.kinematics, from);
-  for (int i = 1; i <= count; ++i) {
-    const double to = length * i / count;
-    const Jet at_to = path.joints_at(machine.kinematics, to);
-    const HigherDerivativeBounds higher = higher_derivative_bounds(machine.kinematics, path, from, to);
+  Derivatives at_from = begin;
+  for (int i = 1; i <= kSlackParts; ++i) {
+    const double to = length * i / kSlackParts;
+    const Derivatives at_to = i == kSlackParts ? end : path.joints_at(kinematics, to).derivatives();
+    const HigherDerivativeBounds higher = higher_derivative_bounds(kinematics, path, from, to);
     cap = std::min(cap, cap_between(machine, at_from, at_to, higher, to - from));
     from = to;
     at_from = at_to;

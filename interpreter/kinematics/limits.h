@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "interpreter/geometry/range.h"
 #include "interpreter/kinematics/machine.h"
 #include "interpreter/kinematics/path.h"
 
@@ -21,6 +22,12 @@ struct CurveBound {
   double by_length;  ///< 1 / (n + 2 length max(m, 0)), which gives |a| from x at the piece's other end.
 };
 
+/// By how much a joint's first two derivatives deviate at most from the straight line between the ends of a piece.
+struct Slack {
+  double first = 0;
+  double second = 0;
+};
+
 /// The limits of all axes on a piece of a curve: |q'' x + q' a| <= acceleration for each axis everywhere on the piece.
 /// q'' and q' are computed at both ends. Between the ends they deviate from the straight line by at most h^2/8 times
 /// their second derivatives, for a piece of length h; this slack is added.
@@ -30,8 +37,8 @@ class CurveLimits {
  public:
   /// `begin`, `end`: the joints at both ends of the piece. `higher`: bounds of the joints' third and fourth derivatives
   /// between them.
-  CurveLimits(const Machine& machine, const Jet& begin, const Jet& end, const HigherDerivativeBounds& higher,
-              double length);
+  CurveLimits(const Machine& machine, const Derivatives& begin, const Derivatives& end,
+              const HigherDerivativeBounds& higher, double length);
 
   /// Returns the maximum of x by the speeds and accelerations of the axes.
   double cap() const { return cap_; }
@@ -47,7 +54,7 @@ class CurveLimits {
     std::span<const CurveBound> used() const { return std::span(bounds).first(count); }
   };
 
-  void add(Bounds& bounds, double m, double n) const;
+  void add(double part, const geometry::Range& slope, const geometry::Range& bend, const Slack& slack);
 
   Bounds forward_;
   Bounds backward_;
@@ -55,8 +62,14 @@ class CurveLimits {
   double cap_;     ///< Maximum of x.
 };
 
-/// Returns the smallest cap of x on `count` equal pieces of a path that begins at s = 0.
-double curve_cap(const Machine& machine, const Path& path, double length, int count);
+/// Returns the cap of x on a piece on which the derivatives of the joints change linearly from end to end: every speed
+/// up to it can be held.
+double curve_cap(const Machine& machine, const Derivatives& begin, const Derivatives& end);
+
+/// Returns a cap of x on a path of the tip from s = 0 to `length`: every speed up to it can be held. Of the ends alone
+/// where the slack between them takes little, else the smallest of several parts. `begin`, `end`: of the joints there.
+double curve_cap(const Machine& machine, const Path& path, double length, const Derivatives& begin,
+                 const Derivatives& end);
 
 /// Returns the maximum of x at the end of a piece that starts with `x`, or with bounds of Direction::Backward, at the
 /// start of a piece that ends with `x`. The caller applies the cap of x.

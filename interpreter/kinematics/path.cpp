@@ -29,6 +29,11 @@ static Jet circle_at(const Path& path, double s) {
 
 Jet Path::at(double s) const { return kind == PathKind::Polynomial ? polynomial_at(*this, s) : circle_at(*this, s); }
 
+Coordinates Path::value_at(double s) const {
+  return kind == PathKind::Polynomial ? Coordinates(c[0] + s * (c[1] + s * (c[2] + s * c[3])))
+                                      : circle_at(*this, s).value;
+}
+
 Jet Path::tip_at(const Kinematics& kinematics, double s) const {
   return is_of_joints ? forward(kinematics, at(s), tool_length) : at(s);
 }
@@ -91,14 +96,16 @@ HigherDerivativeBounds higher_derivative_bounds(const Kinematics& kinematics, co
                                                 double to) {
   if (path.kind == PathKind::Circle && (path.is_of_joints || kinematics.kind != MachineKind::Table))
     return circle_derivative_bounds(path);
-  if (path.is_of_joints) return everywhere(6 * linear_norm(path.c[3]), 0);
+  const double tip_jerk = path.kind == PathKind::Polynomial ? 6 * linear_norm(path.c[3]) : 0;
+  if (path.is_of_joints || kinematics.kind == MachineKind::ThreeAxis) return everywhere(tip_jerk, 0);
   const double farthest = std::max(std::abs(from), std::abs(to));
-  Norms tip = tip_norms(path, farthest);
-  if (kinematics.kind == MachineKind::ThreeAxis) return everywhere(tip[3], tip[4]);
   const Norms turning = turning_norms(path, farthest);
-  const double reach = lever(kinematics, path.at(from).value.head<3>(), path.tool_length);
-  if (kinematics.kind == MachineKind::Head) return everywhere(tip[3] + reach * turning[3], tip[4] + reach * turning[4]);
-  tip[0] = reach + tip[1] * (to - from);
+  if (kinematics.kind == MachineKind::Head) {
+    const double reach = lever(kinematics, geometry::Vec3::Zero(), path.tool_length);  // The same at every tip.
+    return everywhere(tip_jerk + reach * turning[3], reach * turning[4]);
+  }
+  Norms tip = tip_norms(path, farthest);
+  tip[0] = lever(kinematics, path.value_at(from).head<3>(), path.tool_length) + tip[1] * (to - from);
   return everywhere(table_derivative(tip, turning, 3), table_derivative(tip, turning, 4));
 }
 

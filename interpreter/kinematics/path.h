@@ -23,6 +23,7 @@ struct Path {
 
   /// Evaluates the curve itself: joints or tip, depending on `is_of_joints`.
   Jet at(double s) const;
+  Coordinates value_at(double s) const;  ///< at(s).value.
   Jet tip_at(const Kinematics& kinematics, double s) const;
   Jet joints_at(const Kinematics& kinematics, double s) const;
 

@@ -8,8 +8,6 @@
 
 namespace isocnc::motion {
 
-using geometry::Mat3;
-
 /// Maximum difference of directions that count as equal: rounding of decimals, mm or degrees per mm.
 static constexpr double kSameDirection = 1e-9;
 /// Maximum angle cut off from an arc, radians. The bound of the deviation holds for small angles only.
@@ -19,23 +17,26 @@ static constexpr double kMaxCut = 0.25;
 static constexpr double kMaxElementPart = 0.25;
 /// Minimum length cut off where a blend is shortened because of the feed, mm.
 static constexpr double kMinCut = 1e-6;
+/// By how much more a blend of the tip is cut off than the axes need at the corner. The joints' directions change a
+/// little along the blend; without a reserve the corner would be passed a little more slowly than the lines beside it.
+static constexpr double kCutReserve = 1.01;
 
 /// Evaluates an element's path in the space where the corner is rounded.
 static kinematics::Jet seen_in(const kinematics::Machine& machine, kinematics::Space space,
                                const kinematics::Element& element, double s) {
   const bool turned = space == kinematics::Space::Joints && element.space == kinematics::Space::Either;
-  return turned ? element.path.joints_at(machine.kinematics, s) : element.path.at(s);
+  if (turned) return element.path.joints_at(machine.kinematics, s);
+  if (element.is_arc()) return element.path.at(s);
+  return {.value = element.path.c[0] + s * element.path.c[1], .first = element.path.c[1]};
 }
-
-static bool is_arc(const kinematics::Element& element) { return element.path.kind == kinematics::PathKind::Circle; }
 
 static bool can_be_rounded(const kinematics::Element& before, const kinematics::Element& after) {
   if (before.only_turns != after.only_turns || before.path.tool_length != after.path.tool_length) return false;
   if (before.space == after.space) return true;
   // If one element turns B or C, the other must be a line that keeps them. If both turn them in different spaces, they
   // cannot be rounded.
-  return (before.space == kinematics::Space::Either || after.space == kinematics::Space::Either) && !is_arc(before) &&
-         !is_arc(after);
+  return (before.space == kinematics::Space::Either || after.space == kinematics::Space::Either) && !before.is_arc() &&
+         !after.is_arc();
 }
 
 /// The deviation of a kind of blend from the corner, if the length d is cut off from both elements whose directions are
@@ -87,69 +88,27 @@ static kinematics::Path parabola(const kinematics::Jet& arriving, const kinemati
   return path;
 }
 
-/// Maxima of (ds/dt)^2, mm^2/s^2.
-struct Caps {
-  double by_speed = std::numeric_limits<double>::infinity();
-  double by_acceleration = std::numeric_limits<double>::infinity();
-};
-
-/// Returns the caps for a path whose first derivatives lie within the hull of `slopes`, and second derivatives within
-/// that of `bends`.
-static Caps axes_caps(const kinematics::Machine& machine, const kinematics::Coordinates (&slopes)[3],
-                      const kinematics::Coordinates (&bends)[2]) {
-  Caps caps;
-  for (int axis = 0; axis < kinematics::kAxisCount; ++axis) {
-    const kinematics::AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
-    const double slope = std::max({std::abs(slopes[0][axis]), std::abs(slopes[1][axis]), std::abs(slopes[2][axis])});
-    const double bend = std::max(std::abs(bends[0][axis]), std::abs(bends[1][axis]));
-    if (slope > 0) caps.by_speed = std::min(caps.by_speed, kinematics::square(limits.speed / slope));
-    if (bend > 0) caps.by_acceleration = std::min(caps.by_acceleration, limits.acceleration / bend);
-  }
-  return caps;
-}
-
-/// Number of parts of a blend of the tip, whose joints follow curves: the smallest of their caps is that of the blend.
-static constexpr int kBlendParts = 4;
-
-static Caps caps_of(const kinematics::Machine& machine, kinematics::Space space, const Blend& blend) {
-  if (space == kinematics::Space::Tip)
-    return {.by_acceleration = kinematics::curve_cap(machine, blend.path, blend.length, kBlendParts)};
-  const auto& c = blend.path.c;
-  const kinematics::Coordinates cubic = 3 * blend.length * c[3];
-  kinematics::Coordinates slopes[3] = {c[1], c[1] + blend.length * c[2], c[1] + blend.length * (2 * c[2] + cubic)};
-  kinematics::Coordinates bends[2] = {2 * c[2], 2 * c[2] + 2 * cubic};
-  if (space == kinematics::Space::Either && machine.kinematics.kind == kinematics::MachineKind::Table) {
-    const Mat3 turn = kinematics::turn_to_joints(machine.kinematics, blend.path.c[0][kinematics::kB],
-                                                 blend.path.c[0][kinematics::kC]);
-    for (kinematics::Coordinates& slope : slopes) slope.head<3>() = (turn * slope.head<3>()).eval();
-    for (kinematics::Coordinates& bend : bends) bend.head<3>() = (turn * bend.head<3>()).eval();
-  }
-  return axes_caps(machine, slopes, bends);
-}
-
-/// Returns an upper bound of the tip's distance from the rotary axes in a blend of joints, mm.
-static double swing_radius(const kinematics::Machine& machine, const Blend& blend) {
+/// Returns how far B and C swing the tip in a blend of joints at most, mm for a degree.
+static double swing_of(const kinematics::Machine& machine, const Blend& blend) {
   const auto at = [&](double s) {
     const kinematics::Coordinates tip = blend.path.tip_at(machine.kinematics, s).value;
     return kinematics::lever(machine.kinematics, tip.head<3>(), blend.path.tool_length);
   };
-  return std::max(at(0), at(blend.length)) + machine.corner_tolerance;
+  return kinematics::kRadians * (std::max(at(0), at(blend.length)) + machine.corner_tolerance);
 }
 
-/// Returns the maximum of (ds/dt)^2 by the feeds of both elements. The tip's speed at ds/dt = 1 is bounded by the
-/// slopes at both ends and in the middle. In a blend of joints, where one of the elements is a rapid, the swing of B
-/// and C adds to it; the feed of the other element then applies.
-static double feed_cap(const kinematics::Machine& machine, kinematics::Space space, const kinematics::Element& before,
-                       const kinematics::Element& after, const Blend& blend) {
+/// Returns the maximum of (ds/dt)^2 by the feeds of both elements, for a blend with this slope in the middle. The tip's
+/// speed at ds/dt = 1 is bounded by the slopes at both ends and in the middle. In a blend of joints, where one of the
+/// elements is a rapid, the swing of B and C adds to it, mm for a degree; the feed of the other element then applies.
+static double feed_cap(const kinematics::Machine& machine, const kinematics::Element& before,
+                       const kinematics::Element& after, const kinematics::Coordinates& middle, double swing) {
   const double feed = std::min(before.feed, after.feed);
   if (std::isinf(feed)) return feed;
-  const double swing = space == kinematics::Space::Joints ? kinematics::kRadians * swing_radius(machine, blend) : 0;
-  const auto tip_rate = [&](const kinematics::Coordinates& slope) {
-    if (before.only_turns) return slope.tail<2>().norm();
-    return slope.head<3>().norm() + swing * (std::abs(slope[kinematics::kB]) + std::abs(slope[kinematics::kC]));
-  };
-  const kinematics::Coordinates middle = blend.path.c[1] + blend.length * blend.path.c[2];
-  const double max_tip_rate = std::max({before.max_tip_rate, after.max_tip_rate, tip_rate(middle)});
+  const double tip_rate =
+      before.only_turns
+          ? middle.tail<2>().norm()
+          : middle.head<3>().norm() + swing * (std::abs(middle[kinematics::kB]) + std::abs(middle[kinematics::kC]));
+  const double max_tip_rate = std::max({before.max_tip_rate, after.max_tip_rate, tip_rate});
   const double turn = std::max(std::abs(middle[kinematics::kB]), std::abs(middle[kinematics::kC]));
   return kinematics::square(std::min(feed / max_tip_rate, machine.feed_turn / turn));
 }
@@ -169,37 +128,117 @@ static Meeting meeting(const kinematics::Machine& machine, const kinematics::Ele
 
 static bool is_small(const kinematics::Coordinates& change) { return change.cwiseAbs().maxCoeff() <= kSameDirection; }
 
-Corner corner(const kinematics::Machine& machine, const kinematics::Element& before, const kinematics::Element& after) {
-  if (!can_be_rounded(before, after)) return {};
-  const auto [space, arriving, leaving] = meeting(machine, before, after);
-  const kinematics::Coordinates change = leaving.first - arriving.first;
-  if (is_small(change)) return {.junction = Junction::Smooth};
+/// The joints' derivatives by those of the path of a corner, at one place.
+class JointsAt {
+ public:
+  JointsAt(const kinematics::Machine& machine, kinematics::Space space, const kinematics::Coordinates& place,
+           double tool_length) {
+    const bool is_table = machine.kinematics.kind == kinematics::MachineKind::Table;
+    if (space == kinematics::Space::Tip || (space == kinematics::Space::Either && is_table))
+      inverse_.emplace(machine.kinematics, place, tool_length);
+  }
+
+  kinematics::Derivatives derivatives(const kinematics::Derivatives& of_path) const {
+    return inverse_ ? inverse_->derivatives(of_path) : of_path;
+  }
+
+ private:
+  std::optional<kinematics::InverseAt> inverse_;  ///< Absent where the joints have the derivatives of the path.
+};
+
+/// Returns the least length to cut off from two lines for the axes to pass the corner as fast as they pass the lines,
+/// or as the feed permits ((ds/dt)^2 `by_feed`); at most `depth`. The joints' second derivatives are those of a change
+/// of direction within 2 d, and those of lines of the tip that turn B and C.
+static double needed_cut(const kinematics::Machine& machine, const kinematics::Derivatives& arriving,
+                         const kinematics::Derivatives& leaving, double by_feed, double depth) {
+  double speed = std::sqrt(by_feed);
+  for (int axis = 0; axis < kinematics::kAxisCount; ++axis)
+    speed = std::min(speed, machine.axes[static_cast<std::size_t>(axis)].speed /
+                                std::max(std::abs(arriving.first[axis]), std::abs(leaving.first[axis])));
+  const double wanted = kinematics::square(speed);
+  double needed = std::min(depth, kMinCut);
+  for (int axis = 0; axis < kinematics::kAxisCount; ++axis) {
+    const double bend = std::max(std::abs(arriving.second[axis]), std::abs(leaving.second[axis]));
+    const double left = machine.axes[static_cast<std::size_t>(axis)].acceleration - bend * wanted;
+    if (!(left > 0)) return depth;
+    needed = std::max(needed, wanted * std::abs(leaving.first[axis] - arriving.first[axis]) / (2 * left));
+  }
+  return std::min(needed, depth);
+}
+
+/// Joins two lines by a parabola. Its acceleration is inversely proportional to its length: it is as short as the axes
+/// and the feed permit without passing more slowly than the lines.
+static Corner line_corner(const kinematics::Machine& machine, const Meeting& meeting, const kinematics::Element& before,
+                          const kinematics::Element& after) {
+  const auto& [space, arriving, leaving] = meeting;
+  const double tool_length = before.path.tool_length;
   Corner result{.junction = Junction::Rounded};
   Blend& blend = result.blend;
-  const bool between_lines = !is_arc(before) && !is_arc(after);
-  const auto round = [&, space = space, &arriving = arriving, &leaving = leaving](double depth) {
+  const auto round = [&, &arriving = arriving, &leaving = leaving, space = space](double depth) {
     blend.length = 2 * depth;
-    const kinematics::Path path = between_lines
-                                      ? parabola(arriving, leaving, blend.length)
-                                      : hermite(seen_in(machine, space, before, before.end - depth),
-                                                seen_in(machine, space, after, after.begin + depth), blend.length);
-    blend.path = path;
+    blend.path = parabola(arriving, leaving, blend.length);
     blend.path.is_of_joints = space == kinematics::Space::Joints;
-    blend.path.tool_length = before.path.tool_length;
-    return caps_of(machine, space, blend);
+    blend.path.tool_length = tool_length;
   };
-  const double depth = cut(machine, kParabola, space, before, after, arriving, change);
-  Caps caps = round(depth);
-  double by_feed = feed_cap(machine, space, before, after, blend);
-  // The acceleration in a parabola is inversely proportional to its length. So the parabola is shortened where its
-  // acceleration would permit more speed than the feed and the speeds of the axes do.
-  const double wanted = std::min(caps.by_speed, by_feed);
-  if (between_lines && caps.by_acceleration > wanted) {
-    caps = round(std::max(depth * wanted / caps.by_acceleration, std::min(depth, kMinCut)));
-    by_feed = feed_cap(machine, space, before, after, blend);
+  const auto by_feed = [&, &arriving = arriving, &leaving = leaving, space = space] {
+    return feed_cap(machine, before, after, (arriving.first + leaving.first) / 2,
+                    space == kinematics::Space::Joints ? swing_of(machine, blend) : 0);
+  };
+  double depth = cut(machine, kParabola, space, before, after, arriving, leaving.first - arriving.first);
+  if (space == kinematics::Space::Joints) round(depth);
+  const JointsAt corner(machine, space, arriving.value, tool_length);
+  const kinematics::Derivatives slope_before = corner.derivatives({arriving.first});
+  const kinematics::Derivatives slope_after = corner.derivatives({leaving.first});
+  const double needed = needed_cut(machine, slope_before, slope_after, by_feed(), depth);
+  round(space == kinematics::Space::Tip ? std::min(depth, kCutReserve * needed) : needed);
+  depth = blend.length / 2;
+  const kinematics::Coordinates bend = 2 * blend.path.c[2];
+  if (space != kinematics::Space::Tip) {
+    const kinematics::Coordinates joint_bend = (slope_after.first - slope_before.first) / blend.length;
+    blend.cap = std::min(
+        by_feed(), kinematics::curve_cap(machine, {slope_before.first, joint_bend}, {slope_after.first, joint_bend}));
+    return result;
   }
-  blend.cap = std::min({caps.by_speed, caps.by_acceleration, by_feed});
+  const JointsAt begin(machine, space, before.path.c[0] + (before.end - depth) * before.path.c[1], tool_length);
+  const JointsAt end(machine, space, after.path.c[0] + (after.begin + depth) * after.path.c[1], tool_length);
+  result.joints_before = begin.derivatives({arriving.first});
+  result.joints_after = end.derivatives({leaving.first});
+  blend.cap = std::min(
+      by_feed(), kinematics::curve_cap(machine, blend.path, blend.length, begin.derivatives({arriving.first, bend}),
+                                       end.derivatives({leaving.first, bend})));
   return result;
+}
+
+/// Joins two elements, one of which is an arc, by a cubic.
+static Corner arc_corner(const kinematics::Machine& machine, const Meeting& meeting, const kinematics::Element& before,
+                         const kinematics::Element& after) {
+  const auto& [space, arriving, leaving] = meeting;
+  const double depth = cut(machine, kParabola, space, before, after, arriving, leaving.first - arriving.first);
+  Corner result{.junction = Junction::Rounded};
+  Blend& blend = result.blend;
+  blend.length = 2 * depth;
+  blend.path = hermite(seen_in(machine, space, before, before.end - depth),
+                       seen_in(machine, space, after, after.begin + depth), blend.length);
+  blend.path.tool_length = before.path.tool_length;
+  const auto& c = blend.path.c;
+  const kinematics::Coordinates middle = c[1] + blend.length * c[2];
+  const kinematics::Coordinates cubic = 3 * blend.length * c[3];
+  const JointsAt joints(machine, space, c[0], blend.path.tool_length);
+  const double by_axes =
+      kinematics::curve_cap(machine, joints.derivatives({c[1], 2 * c[2]}),
+                            joints.derivatives({c[1] + blend.length * (2 * c[2] + cubic), 2 * c[2] + 2 * cubic}));
+  // The first derivatives lie within the hull of those at both ends and this one.
+  const double by_middle = kinematics::line_limits(machine, joints.derivatives({middle}).first).cap;
+  blend.cap = std::min({by_axes, by_middle, feed_cap(machine, before, after, middle, 0)});
+  return result;
+}
+
+Corner corner(const kinematics::Machine& machine, const kinematics::Element& before, const kinematics::Element& after) {
+  if (!can_be_rounded(before, after)) return {};
+  const Meeting meeting = motion::meeting(machine, before, after);
+  if (is_small(meeting.leaving.first - meeting.arriving.first)) return {.junction = Junction::Smooth};
+  const bool between_lines = !before.is_arc() && !after.is_arc();
+  return between_lines ? line_corner(machine, meeting, before, after) : arc_corner(machine, meeting, before, after);
 }
 
 /// Returns three cubics of equal length with continuous second derivatives. The values, slopes and second derivatives

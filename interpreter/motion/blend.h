@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "interpreter/kinematics/element.h"
 
@@ -25,6 +26,9 @@ enum class Junction : std::uint8_t {
 struct Corner {
   Junction junction = Junction::Stop;
   Blend blend;  ///< The curve of a Junction::Rounded; unused otherwise.
+  /// Derivatives of the joints on both lines of the tip where a blend of the tip meets them; absent in other corners.
+  std::optional<kinematics::Derivatives> joints_before;
+  std::optional<kinematics::Derivatives> joints_after;
 };
 
 /// Computes the corner between two consecutive elements. The blend stays within the machine's corner tolerance, and

@@ -124,9 +124,10 @@ void Planner::join(kinematics::Element& next) {
   next.begin += depth;
   if (corner.junction == Junction::Smooth) return append(last_);
   const auto& c = corner.blend.path.c;
-  if (!last_.joints_are_straight) last_.slope_at_end = c[1];
-  if (!next.joints_are_straight)
-    next.slope_at_begin = c[1] + corner.blend.length * (2 * c[2] + 3 * corner.blend.length * c[3]);
+  if (last_.is_arc()) last_.slope_at_end = c[1];
+  if (next.is_arc()) next.slope_at_begin = c[1] + corner.blend.length * (2 * c[2] + 3 * corner.blend.length * c[3]);
+  last_.joints_at_end = corner.joints_before;
+  next.joints_at_begin = corner.joints_after;
   const bool ends_move = std::exchange(last_.ends_move, false);
   append(last_);
   last_.ends_move = ends_move;
@@ -196,8 +197,8 @@ static double feed_cap(const kinematics::Element& element) {
 static int piece_count(const kinematics::Machine& machine, const kinematics::Element& element) {
   const double length = element.end - element.begin;
   const double rate = turning(element.path);
-  const kinematics::Coordinates middle = element.path.at((element.begin + element.end) / 2).value;
-  const double radius = element.path.kind == kinematics::PathKind::Circle
+  const kinematics::Coordinates middle = element.path.value_at((element.begin + element.end) / 2);
+  const double radius = element.is_arc()
                             ? element.path.c[1].norm()
                             : kinematics::lever(machine.kinematics, middle.head<3>(), element.path.tool_length);
   double weakest = machine.axes[kinematics::kX].acceleration;
@@ -209,14 +210,17 @@ static int piece_count(const kinematics::Machine& machine, const kinematics::Ele
 
 void Planner::append_curve(const kinematics::Element& element) {
   if (jerk_limiter_) return append_smooth_curve(element);
-  if (element.path.kind == kinematics::PathKind::Circle) return append_arc(element);
+  if (element.is_arc()) return append_arc(element);
   const double length = element.end - element.begin;
   const int count = piece_count(machine_, element);
   double from = element.begin;
-  kinematics::Jet at_from = element.path.joints_at(machine_.kinematics, from);
+  const auto joints_at = [&](double s, const std::optional<kinematics::Derivatives>& known) {
+    return known ? *known : element.path.joints_at(machine_.kinematics, s).derivatives();
+  };
+  kinematics::Derivatives at_from = joints_at(from, element.joints_at_begin);
   for (int i = 1; i <= count; ++i) {
     const double to = element.begin + length * i / count;
-    const kinematics::Jet at_to = element.path.joints_at(machine_.kinematics, to);
+    const kinematics::Derivatives at_to = joints_at(to, i == count ? element.joints_at_end : std::nullopt);
     const kinematics::HigherDerivativeBounds higher =
         kinematics::higher_derivative_bounds(machine_.kinematics, element.path, from, to);
     profile_.append_curve(from, to - from, feed_cap(element),
@@ -258,12 +262,12 @@ static kinematics::LineLimits ramp_limits(const kinematics::Machine& machine, co
   return kinematics::line_limits(machine, slope.cwiseAbs() + ramp * bend);
 }
 
-/// Returns the derivatives of a circle at the place that follows that of `jet` by an angle of this cosine and sine.
-static kinematics::Jet turned_on(const kinematics::Path& circle, const kinematics::Jet& jet, double cosine,
-                                 double sine) {
-  const kinematics::Coordinates along = jet.first - circle.c[3];
-  return {.first = cosine * along + sine / circle.omega * jet.second + circle.c[3],
-          .second = cosine * jet.second - sine * circle.omega * along};
+/// Returns the derivatives of a circle at the place that follows that of `from` by an angle of this cosine and sine.
+static kinematics::Derivatives turned_on(const kinematics::Path& circle, const kinematics::Derivatives& from,
+                                         double cosine, double sine) {
+  const kinematics::Coordinates along = from.first - circle.c[3];
+  return {.first = cosine * along + sine / circle.omega * from.second + circle.c[3],
+          .second = cosine * from.second - sine * circle.omega * along};
 }
 
 /// Appends a part of a circle in fine pieces. Returns their number.
@@ -274,9 +278,9 @@ int Planner::append_fine(const kinematics::Path& circle, double begin, double en
   const double sine = std::sin(circle.omega * length);
   const kinematics::HigherDerivativeBounds higher =
       kinematics::higher_derivative_bounds(machine_.kinematics, circle, begin, end);
-  kinematics::Jet from = circle.at(begin);
+  kinematics::Derivatives from = circle.at(begin).derivatives();
   for (int i = 0; i < count; ++i) {
-    const kinematics::Jet to = turned_on(circle, from, cosine, sine);
+    const kinematics::Derivatives to = turned_on(circle, from, cosine, sine);
     profile_.append_curve(begin + i * length, length, cap, kinematics::CurveLimits(machine_, from, to, higher, length));
     from = to;
   }
@@ -414,7 +418,7 @@ const Stretch* Planner::next_determined() {
   }
   stretch_.tag = track.piece.tag;
   stretch_.ends_move = track.piece.ends_move && count == left;
-  stretch_.path = track.piece.path;
+  if (!half_out_) stretch_.path = track.piece.path;
   if (track.is_shared) {
     keep_half(stretch_, half_out_);
     if (half_out_) stretch_.tag = track.next_tag;

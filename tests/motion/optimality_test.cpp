@@ -83,6 +83,29 @@ TEST(Optimality, SwingingPivotsAreWithinAPercent) {
   EXPECT_GE(found, 0.9999);
 }
 
+/// Chains of short lines that turn B and C, as of a finished surface: nearly all of their time is spent in corners.
+TEST(Optimality, ShortLinesInFiveAxesAreWithinAPercent) {
+  for (const kinematics::Machine& machine : {kinematics::head_router(), kinematics::table_router()}) {
+    for (const std::uint64_t seed : support::seeds(6)) {
+      support::Random random(seed);
+      const double feed = random.real(10, 400);
+      std::vector<kinematics::Move> moves;
+      geometry::Pose at;
+      for (std::uint64_t tag = 0; tag < 30; ++tag) {
+        kinematics::Move move{.tag = tag, .from = at, .to = at, .feed = speed(feed), .tool_length = 100};
+        move.to.tip += geometry::Vec3(random.real(0.2, 1), random.real(-0.5, 0.5), random.real(-0.2, 0.2));
+        move.to.b += random.real(-0.5, 0.5);
+        move.to.c += random.real(-0.5, 0.5);
+        moves.push_back(move);
+        at = move.to;
+      }
+      const double found = ratio(machine, moves, 60);
+      EXPECT_LE(found, 1.01) << seed;
+      EXPECT_GE(found, 0.995) << seed;
+    }
+  }
+}
+
 /// The planner's time over that of the ascent, where jerk is limited. The path is the planner's.
 double jerk_limited_ratio(const kinematics::Machine& machine, const std::vector<kinematics::Move>& moves) {
   const auto stretches = plan(machine, moves);
