@@ -15,9 +15,9 @@ static constexpr std::size_t kMaxSpans = 16384;
 static constexpr double kNoPart = 1e-14;
 /// Maximum ratio of lengths that counts as 1.
 static constexpr double kRounding = 1 + 1e-9;
-/// Search for the peak of the speed on a span of a curve: maximum number of bisections, and the relative precision that
-/// ends them.
-static constexpr int kBisections = 16;
+/// Search for the peak of the speed on a span of a curve by false position: maximum number of steps, and the relative
+/// precision, of the peak or of the length that it leaves, that ends them.
+static constexpr int kPeakSteps = 16;
 static constexpr double kPeakPrecision = 1e-4;
 
 Profile::Profile() : batch_(kPlanningBatch) {}
@@ -175,18 +175,31 @@ static Course on_curve(std::span<const kinematics::CurveBound> forward,
     return over_peak(peak, entry, exit, kinematics::acceleration(forward, entry, peak),
                      kinematics::acceleration(backward, exit, peak));
   };
-  const auto fits = [&](const Course& course) { return course.up + course.down <= length; };
-  double low = std::max(entry, exit);
-  Course best = over(cap);
-  if (fits(best)) return best;
-  best = straight(length, entry, exit);
+  const auto excess = [&](const Course& course) { return course.up + course.down - length; };
+  const Course at_cap = over(cap);
   double high = cap;
-  for (int i = 0; i < kBisections && high - low > kPeakPrecision * high; ++i) {
-    const double middle = (low + high) / 2;
-    const Course course = over(middle);
-    const bool is_better = fits(course);
-    if (is_better) best = course;
-    (is_better ? low : high) = middle;
+  double high_excess = excess(at_cap);
+  if (high_excess <= 0) return at_cap;
+  double low = std::max(entry, exit);
+  double low_excess = excess(over(low));
+  Course best = straight(length, entry, exit);
+  for (int i = 0; i < kPeakSteps && low_excess < -kPeakPrecision * length && high - low > kPeakPrecision * high; ++i) {
+    // A little below the length of the span, so that rounding makes no course too long. Near the cap a course can
+    // become as long as one likes: no steps that are small only because of that.
+    high_excess = std::min(high_excess, length);
+    const double aim = -kPeakPrecision / 2 * length;
+    const double peak = low + (aim - low_excess) / (high_excess - low_excess) * (high - low);
+    const Course course = over(peak);
+    const double found = excess(course);
+    if (found <= 0) {
+      best = course;
+      low = peak;
+      low_excess = found;
+      high_excess /= 2;  // Otherwise the upper end would stay where it is: a course grows ever faster with its peak.
+    } else {
+      high = peak;
+      high_excess = found;
+    }
   }
   return best;
 }
