@@ -1,6 +1,7 @@
 #include "analyzer/check/analysis.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -28,8 +29,43 @@ Frontier Analysis::before(std::size_t chunk) const {
 
 // --- Jumps
 
-static void append(std::vector<FlowEvent>& all, const std::vector<FlowEvent>& more) {
-  all.insert(all.end(), more.begin(), more.end());
+void Analysis::FlowEvents::push_back(const FlowEvent& event) {
+  const bool is_assignment = event.kind == FlowEvent::Kind::Assignment;
+  events_.push_back(
+      {is_assignment ? std::bit_cast<std::uint64_t>(event.value) : event.label, event.line, event.kind, event.reg});
+  if (event.kind == FlowEvent::Kind::Jump) jumps_.push_back(event.jump);
+}
+
+void Analysis::FlowEvents::shrink_to_fit() {
+  events_.shrink_to_fit();
+  jumps_.shrink_to_fit();
+}
+
+template <class IsGone>
+bool Analysis::FlowEvents::erase_labels(IsGone is_gone) {
+  return std::erase_if(events_, [&](const Short& event) {
+           return event.kind == FlowEvent::Kind::Label && is_gone(event.content);
+         }) > 0;
+}
+
+template <class Take>
+void Analysis::FlowEvents::each(Take take) const {
+  auto jump = jumps_.begin();
+  for (const Short& event : events_) {
+    FlowEvent whole{.kind = event.kind, .reg = event.reg, .line = event.line};
+    switch (event.kind) {
+      case FlowEvent::Kind::Assignment:
+        whole.value = std::bit_cast<double>(event.content);
+        break;
+      case FlowEvent::Kind::Label:
+        whole.label = event.content;
+        break;
+      case FlowEvent::Kind::Jump:
+        whole.jump = *jump++;
+        break;
+    }
+    take(whole);
+  }
 }
 
 /// Reads the events of a chunk that concern jumps, as far as the program has jumps.
@@ -68,19 +104,44 @@ bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& 
 /// Calls `take` with each event that concerns jumps, in all chunks, and its line.
 template <class Take>
 void Analysis::each_jump_event(Take take) const {
-  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
-    for (const FlowEvent& event : rows_[chunk].jumps) take(document_.first_line_of_chunk(chunk) + event.line, event);
+  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
+    const std::size_t first_line = document_.first_line_of_chunk(chunk);
+    rows_[chunk].jumps.each([&](const FlowEvent& event) { take(first_line + event.line, event); });
+  }
 }
 
-/// The labels that the jumps in all chunks name, ascending.
-std::vector<std::uint64_t> Analysis::labels_named() const {
+/// The labels that the jumps of these events name, ascending.
+static std::vector<std::uint64_t> labels_named_by(const std::vector<FlowEvent>& events) {
   std::vector<std::uint64_t> labels;
-  each_jump_event([&](std::size_t, const FlowEvent& event) {
+  for (const FlowEvent& event : events)
     if (event.kind == FlowEvent::Kind::Jump) labels.push_back(event.jump.target);
-  });
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  sort_once(labels);
   return labels;
+}
+
+/// The labels that the jumps in all chunks name after the old events have become the new ones, ascending.
+std::vector<std::uint64_t> Analysis::labels_named(const std::vector<FlowEvent>& old_events,
+                                                  const std::vector<FlowEvent>& new_events) const {
+  const std::vector<std::uint64_t> of_old = labels_named_by(old_events);
+  // By how much oftener old labels are named in the whole program than in the old events.
+  std::vector<std::ptrdiff_t> others(of_old.size());
+  const auto count = [&](std::uint64_t label, std::ptrdiff_t by) {
+    const auto found = std::lower_bound(of_old.begin(), of_old.end(), label);
+    if (found != of_old.end() && *found == label) others[static_cast<std::size_t>(found - of_old.begin())] += by;
+  };
+  for (const JumpMap::Site& site : jumps_.sites()) count(site.jump.target, 1);
+  for (const FlowEvent& event : old_events)
+    if (event.kind == FlowEvent::Kind::Jump) count(event.jump.target, -1);
+  std::vector<std::uint64_t> kept;
+  for (const std::uint64_t label : jumps_.labels()) {
+    const auto old = std::lower_bound(of_old.begin(), of_old.end(), label);
+    const bool is_of_old = old != of_old.end() && *old == label;
+    if (!is_of_old || others[static_cast<std::size_t>(old - of_old.begin())] > 0) kept.push_back(label);
+  }
+  const std::vector<std::uint64_t> of_new = labels_named_by(new_events);
+  std::vector<std::uint64_t> all;
+  std::set_union(kept.begin(), kept.end(), of_new.begin(), of_new.end(), std::back_inserter(all));
+  return all;
 }
 
 /// The elements of `a` that are not in `b`; both are ascending.
@@ -96,19 +157,19 @@ void Analysis::follow_labels(const std::vector<std::uint64_t>& named) {
   const std::vector<std::uint64_t> added = difference(named, named_before);
   const std::vector<std::uint64_t> removed = difference(named_before, named);
   if (added.empty() && removed.empty()) return;
-  const auto is_removed = [&](const FlowEvent& event) {
-    return event.kind == FlowEvent::Kind::Label && std::binary_search(removed.begin(), removed.end(), event.label);
+  const auto is_removed = [&](std::uint64_t label) {
+    return std::binary_search(removed.begin(), removed.end(), label);
   };
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
-    const bool has_lost = !removed.empty() && std::erase_if(rows_[chunk].jumps, is_removed) > 0;
+    const bool has_lost = !removed.empty() && rows_[chunk].jumps.erase_labels(is_removed);
     if (read_labels(chunk, added, named) || has_lost) rows_[chunk].is_stale = true;
   }
 }
 
-/// The jumps of the program, from the events of its chunks.
-JumpMap Analysis::find_jumps() {
-  follow_labels(labels_named());
-  JumpCollector collector;
+/// The jumps of the program, from the events of its chunks, of which the old ones have become the new ones.
+JumpMap Analysis::find_jumps(const std::vector<FlowEvent>& old_events, const std::vector<FlowEvent>& new_events) {
+  follow_labels(labels_named(old_events, new_events));
+  JumpCollector collector(jumps_);
   each_jump_event([&](std::size_t line, const FlowEvent& event) { collector.add(line, event); });
   return std::move(collector).finish();
 }
@@ -117,9 +178,10 @@ JumpMap Analysis::find_jumps() {
 void Analysis::move_jumps(const syntax::ChunkChange& change) {
   std::vector<JumpMap::Site> sites;
   for (std::size_t chunk = change.first; chunk < change.first + change.inserted; ++chunk)
-    for (const FlowEvent& event : rows_[chunk].jumps)
+    rows_[chunk].jumps.each([&](const FlowEvent& event) {
       if (event.kind == FlowEvent::Kind::Jump)
         sites.push_back({document_.first_line_of_chunk(chunk) + event.line, event.jump});
+    });
   const std::size_t first_line =
       change.first < rows_.size() ? document_.first_line_of_chunk(change.first) : document_.line_count();
   const std::size_t first = jumps_.first_from(first_line);
@@ -141,26 +203,27 @@ void Analysis::check_changed_jumps_again(const JumpMap& old_jumps) {
   };
   std::uint32_t jump = 0;
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
-    for (const FlowEvent& event : rows_[chunk].jumps) {
+    rows_[chunk].jumps.each([&](const FlowEvent& event) {
       const bool is_alike = event.kind == FlowEvent::Kind::Jump         ? jumps_.is_equivalent(jump++, old_jumps)
                             : event.kind == FlowEvent::Kind::Assignment ? is_assigned_alike(event, jump)
                                                                         : true;
       if (!is_alike) rows_[chunk].is_stale = true;
-    }
+    });
 }
 
 /// Updates the jumps after these events have been replaced. Returns false if all chunks must be checked again:
 /// frontiers refer to jumps by number.
 bool Analysis::follow_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events) {
   std::vector<FlowEvent> new_events;
-  for (std::size_t i = change.first; i < change.first + change.inserted; ++i) append(new_events, rows_[i].jumps);
+  for (std::size_t i = change.first; i < change.first + change.inserted; ++i)
+    rows_[i].jumps.each([&](const FlowEvent& event) { new_events.push_back(event); });
   const bool same = std::equal(old_events.begin(), old_events.end(), new_events.begin(), new_events.end(),
                                [](const FlowEvent& a, const FlowEvent& b) { return a.means_the_same(b); });
   if (same) {
     if (!jumps_.empty()) move_jumps(change);
     return true;
   }
-  const JumpMap old_jumps = std::exchange(jumps_, find_jumps());
+  const JumpMap old_jumps = std::exchange(jumps_, find_jumps(old_events, new_events));
   if (jumps_.sites().size() != old_jumps.sites().size() ||
       jumps_.compares_registers() != old_jumps.compares_registers())
     return false;
@@ -199,7 +262,7 @@ bool Analysis::follow_text(const std::function<bool()>& stop) {
   Frontier at_change = is_first ? Frontier{} : before(change.first);
   std::vector<FlowEvent> old_events;
   for (std::size_t i = change.first; i < change.first + change.removed; ++i) {
-    append(old_events, rows_[i].jumps);
+    rows_[i].jumps.each([&](const FlowEvent& event) { old_events.push_back(event); });
     counts_.remove(rows_[i].checked->outcome);
   }
   rows_.follow(document_, change, [&](std::size_t chunk) {

@@ -50,6 +50,30 @@ class Analysis {
     Frontier before;  ///< The frontier before the chunk, without Row::shift.
     Outcome outcome;  ///< The findings, with lines counted from the start of the chunk.
   };
+  /// The events of a chunk that concern jumps, in few bytes: after an edit of a jump those of all chunks are gone
+  /// through.
+  class FlowEvents {
+   public:
+    void push_back(const FlowEvent& event);
+    void clear() { *this = {}; }
+    void shrink_to_fit();
+    /// Removes the labels for which `is_gone` holds. Returns whether there were any.
+    template <class IsGone>
+    bool erase_labels(IsGone is_gone);
+    /// Calls `take` with each event, in order.
+    template <class Take>
+    void each(Take take) const;
+
+   private:
+    struct Short {
+      std::uint64_t content = 0;  ///< The label, or the bits of the value.
+      std::uint32_t line = 0;
+      FlowEvent::Kind kind = FlowEvent::Kind::Jump;
+      std::uint8_t reg = 0;
+    };
+    std::vector<Short> events_;
+    std::vector<syntax::Jump> jumps_;
+  };
   /// The range of the labels in a chunk.
   struct LabelRange {
     std::uint64_t min = std::numeric_limits<std::uint64_t>::max();
@@ -68,8 +92,8 @@ class Analysis {
     bool is_stale = true;   ///< Whether the chunk must be checked.
     CenterUse centers;      ///< A copy from the outcome.
     bool has_text = false;
-    bool has_more = false;         ///< Whether the outcome has more than text.
-    std::vector<FlowEvent> jumps;  ///< The events that concern jumps; labels only if a jump names them.
+    bool has_more = false;  ///< Whether the outcome has more than text.
+    FlowEvents jumps;       ///< The events that concern jumps; labels only if a jump names them.
     LabelRange labels = LabelRange::any();
     std::unique_ptr<Checked> checked = std::make_unique<Checked>();
   };
@@ -83,8 +107,9 @@ class Analysis {
   void move_jumps(const syntax::ChunkChange& change);
   template <class Take>
   void each_jump_event(Take take) const;
-  JumpMap find_jumps();
-  std::vector<std::uint64_t> labels_named() const;
+  JumpMap find_jumps(const std::vector<FlowEvent>& old_events, const std::vector<FlowEvent>& new_events);
+  std::vector<std::uint64_t> labels_named(const std::vector<FlowEvent>& old_events,
+                                          const std::vector<FlowEvent>& new_events) const;
   void follow_labels(const std::vector<std::uint64_t>& named);
   bool read_labels(std::size_t chunk, const std::vector<std::uint64_t>& added, const std::vector<std::uint64_t>& named);
   void check_changed_jumps_again(const JumpMap& old_jumps);

@@ -4,13 +4,18 @@
 
 namespace isocnc::check {
 
+JumpCollector::JumpCollector(const JumpMap& before) : before_(&before) {
+  sites_.reserve(before.sites().size());
+  events_.reserve(2 * before.sites().size());
+}
+
 void JumpCollector::add(std::size_t line, const FlowEvent& event) {
   if (event.kind == FlowEvent::Kind::Jump) sites_.push_back({line, event.jump});
-  events_.emplace_back(event);
+  JumpMap::add(events_, event);
 }
 
 JumpMap JumpCollector::finish() && {
-  JumpMap map(std::move(sites_));
+  JumpMap map(std::move(sites_), before_ ? *before_ : JumpMap());
   if (!map.empty()) map.follow(std::move(events_));
   return map;
 }

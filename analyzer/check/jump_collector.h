@@ -10,6 +10,10 @@ namespace isocnc::check {
 /// Collects the jumps, labels and assignments of a program as its lines are read, and makes a JumpMap of them.
 class JumpCollector {
  public:
+  JumpCollector() = default;
+  /// `before`: the jumps before an edit, of which much stays as it was; must outlive the collector.
+  explicit JumpCollector(const JumpMap& before);
+
   /// Adds the next event; `line` counts from the start of the program. Labels that no jump names may be left out.
   void add(std::size_t line, const FlowEvent& event);
 
@@ -17,6 +21,7 @@ class JumpCollector {
   JumpMap finish() &&;
 
  private:
+  const JumpMap* before_ = nullptr;
   std::vector<JumpMap::Site> sites_;
   std::vector<JumpMap::ReducedEvent> events_;
 };

@@ -195,44 +195,84 @@ static std::vector<JumpMap::Site> sites_in(std::string_view text) {
   return sites;
 }
 
-JumpMap::JumpMap(std::string_view text) : JumpMap(sites_in(text)) {
+JumpMap::JumpMap(std::string_view text) : JumpMap(sites_in(text), JumpMap()) {
   if (compares_registers()) read_labels(text);
 }
 
 JumpMap JumpMap::with_labels(std::string_view text) {
-  JumpMap map(sites_in(text));
+  JumpMap map(sites_in(text), JumpMap());
   if (!map.empty()) map.read_labels(text);
   return map;
 }
 
-/// Sorts values, each once.
-template <class Value>
-static void sort_once(std::vector<Value>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-JumpMap::JumpMap(std::vector<Site> sites) : sites_(std::move(sites)), knows_labels_(sites_.empty()) {
+JumpMap::JumpMap(std::vector<Site> sites, const JumpMap& before)
+    : sites_(std::move(sites)), knows_labels_(sites_.empty()) {
   if (sites_.empty()) return;
   filter_.resize(16384);
+  targets_.reserve(sites_.size());
   for (const Site& site : sites_) {
-    const syntax::Jump& jump = site.jump;
-    targets_.push_back(jump.target);
-    const std::size_t bit = filter_bit(jump.target);
+    targets_.push_back(site.jump.target);
+    const std::size_t bit = filter_bit(site.jump.target);
     filter_[bit / 64] |= std::uint64_t{1} << (bit % 64);
-    if (jump.variable <= 0 || !jump.condition_is_known()) continue;
-    constants_[static_cast<std::size_t>(jump.variable)].push_back(jump.value);
-    compared_ |= register_bit(jump.variable);
   }
   sort_once(targets_);
-  for (std::vector<double>& values : constants_) sort_once(values);
+  find_constants(before);
   reads_.resize(sites_.size());
+}
+
+/// The register that a jump compares, if that and its constant are known; else 0.
+static int compared_by(const syntax::Jump& jump) {
+  return jump.variable > 0 && jump.condition_is_known() ? jump.variable : 0;
+}
+
+/// Takes over the constants of registers that the same jumps compare as before: to sort them all takes longest.
+void JumpMap::find_constants(const JumpMap& before) {
+  RegisterSet differs = ~RegisterSet{0};
+  if (sites_.size() == before.sites_.size()) {
+    differs = 0;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      const syntax::Jump& jump = sites_[i].jump;
+      const syntax::Jump& old = before.sites_[i].jump;
+      const int now = compared_by(jump);
+      const int then = compared_by(old);
+      if (now == then && (now == 0 || jump.value == old.value)) continue;
+      differs |= register_bit(now) | register_bit(then);
+    }
+  }
+  for (const Site& site : sites_) {
+    const int reg = compared_by(site.jump);
+    if (reg == 0) continue;
+    compared_ |= register_bit(reg);
+    if ((differs & register_bit(reg)) != 0) constants_[static_cast<std::size_t>(reg)].push_back(site.jump.value);
+  }
+  for (int reg = 1; reg <= dialect::kRegisterCount; ++reg) {
+    std::vector<double>& values = constants_[static_cast<std::size_t>(reg)];
+    if ((differs & register_bit(reg)) != 0) {
+      sort_once(values);
+    } else {
+      values = before.constants(reg);
+    }
+  }
+}
+
+void JumpMap::add(std::vector<ReducedEvent>& events, const FlowEvent& event) {
+  switch (event.kind) {
+    case FlowEvent::Kind::Assignment:
+      if (!events.empty()) events.back().assigned |= register_bit(event.reg);
+      break;
+    case FlowEvent::Kind::Label:
+      events.push_back({.kind = event.kind, .label = event.label});
+      break;
+    case FlowEvent::Kind::Jump:
+      events.push_back({.kind = event.kind, .label = event.jump.target});
+      break;
+  }
 }
 
 void JumpMap::read_labels(std::string_view text) {
   std::vector<ReducedEvent> events;
   scan_events(text, [&](const FlowEvent& event, const char*) {
-    if (event.kind != FlowEvent::Kind::Label || names(event.label)) events.emplace_back(event);
+    if (event.kind != FlowEvent::Kind::Label || names(event.label)) add(events, event);
   });
   follow(std::move(events));
 }
@@ -243,7 +283,6 @@ void JumpMap::follow(std::vector<ReducedEvent> events) {
   std::size_t near_labels = 0;
   std::size_t near_jumps = 0;
   for (ReducedEvent& event : events) {
-    if (event.kind == FlowEvent::Kind::Assignment) continue;
     std::size_t& near = event.kind == FlowEvent::Kind::Label ? near_labels : near_jumps;
     if (near + 1 < targets_.size() && targets_[near] < event.label) ++near;
     if (targets_[near] != event.label) {
@@ -264,23 +303,17 @@ void JumpMap::find_reads(const std::vector<ReducedEvent>& events) {
   RegisterSet read = 0;
   std::size_t jump = sites_.size();
   for (auto event = events.rbegin(); event != events.rend(); ++event) {
-    switch (event->kind) {
-      case FlowEvent::Kind::Assignment:
-        read &= ~register_bit(event->reg);
-        break;
-      case FlowEvent::Kind::Label:
-        if (event->target != kNone) read_at_target[event->target] = read;
-        break;
-      case FlowEvent::Kind::Jump: {
-        const int variable = sites_[--jump].jump.variable;
-        reads_[jump].after = read;
-        reads_[jump].at_target = read_at_target[event->target];
-        read |= reads_[jump].at_target;
-        if (variable > 0) read |= register_bit(variable);
-        reads_[jump].before = read;
-        break;
-      }
+    read &= ~event->assigned;
+    if (event->kind == FlowEvent::Kind::Label) {
+      if (event->target != kNone) read_at_target[event->target] = read;
+      continue;
     }
+    const int variable = sites_[--jump].jump.variable;
+    reads_[jump].after = read;
+    reads_[jump].at_target = read_at_target[event->target];
+    read |= reads_[jump].at_target;
+    if (variable > 0) read |= register_bit(variable);
+    reads_[jump].before = read;
   }
 }
 

@@ -35,6 +35,13 @@ struct FlowEvent {
   bool means_the_same(const FlowEvent& other) const;
 };
 
+/// Sorts values, each once. Labels are in order already in most programs.
+template <class Value>
+void sort_once(std::vector<Value>& values) {
+  if (!std::is_sorted(values.begin(), values.end())) std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 /// The number of a line with findings, where its first word may be a misspelled line number: N3O, 30, or B30 with the
 /// key beside N.
 std::optional<double> misspelled_label(const syntax::LineTree& line);
@@ -134,18 +141,16 @@ class JumpMap {
  private:
   friend class JumpCollector;
 
-  /// An event, reduced to what find_reads() and find_targets() need.
-  struct ReducedEvent {
-    explicit ReducedEvent(const FlowEvent& event)
-        : kind(event.kind),
-          reg(event.reg),
-          label(event.kind == FlowEvent::Kind::Jump ? event.jump.target : event.label) {}
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-    FlowEvent::Kind kind;
-    std::uint8_t reg;            // The register assigned to.
-    std::uint64_t label;         // The label defined, or jumped to.
+  /// A label or a jump, with the registers assigned to between it and the next one.
+  struct ReducedEvent {
+    FlowEvent::Kind kind = FlowEvent::Kind::Label;
+    RegisterSet assigned = 0;
+    std::uint64_t label = 0;     // The label defined, or jumped to.
     std::size_t target = kNone;  // Its index among those that jumps name. Set by follow().
   };
+  static void add(std::vector<ReducedEvent>& events, const FlowEvent& event);
   struct Reads {
     RegisterSet after = 0;
     RegisterSet at_target = 0;
@@ -154,10 +159,9 @@ class JumpMap {
     friend bool operator==(const Reads&, const Reads&) = default;
   };
 
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-  /// The map of the jumps alone, without labels.
-  explicit JumpMap(std::vector<Site> sites);
+  /// The map of the jumps alone, without labels. `before`: of the program before an edit.
+  JumpMap(std::vector<Site> sites, const JumpMap& before);
+  void find_constants(const JumpMap& before);
   void read_labels(std::string_view text);
   void follow(std::vector<ReducedEvent> events);
   void find_reads(const std::vector<ReducedEvent>& events);
