@@ -17,8 +17,8 @@ using Json = nlohmann::json;
 /// recursion, so a deeply nested value could overflow the stack and end the process.
 inline constexpr std::size_t kDeepestMessage = 256;
 
-/// Parses a message of the other side. Text that is not JSON, or nested more deeply than kDeepestMessage, gives a
-/// `discarded` value of nlohmann-json.
+/// Parses a message of the other side, in which half a surrogate pair is U+FFFD. Text that is not JSON, or nested more
+/// deeply than kDeepestMessage, gives a `discarded` value of nlohmann-json.
 Json parse(std::string_view text);
 
 }  // namespace isocnc::rpc

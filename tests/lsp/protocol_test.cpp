@@ -112,6 +112,22 @@ TEST(Messages, WhatIsWrongIsAnsweredAsTheProtocolAsks) {
   EXPECT_EQ(session.request("textDocument/diagnostic", {{"textDocument", {{"uri", kUri}}}})["kind"], "full");
 }
 
+/// An editor whose user deletes the second half of a character sends the first.
+TEST(Messages, AnEditWithHalfACharacterIsMade) {
+  Session session;
+  session.start();
+  session.open(kUri, "(a)\nM02\n");
+  session.send_raw(
+      R"({"method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///nowhere/part.iso","version":2},)"
+      R"("contentChanges":[{"range":{"start":{"line":0,"character":1},"end":{"line":0,"character":2}},"text":"\ud83d"}]}})");
+  session.edit(kUri, 3, {change(1, 0, 1, 3, "Q")});
+  Session other;
+  other.start();
+  other.open(kUri, "(\xEF\xBF\xBD)\nQ\n");
+  EXPECT_EQ(session.request("isocnc/syntaxTree", document_params()),
+            other.request("isocnc/syntaxTree", document_params()));
+}
+
 TEST(Messages, WhatNestsTooDeeplyIsRefused) {
   constexpr int kDepth = 500'000;
   const std::string nested = std::string(kDepth, '[') + std::string(kDepth, ']');

@@ -116,6 +116,27 @@ TEST(ParsedMessage, HalfACharacterIsReplacedInALongString) {
   }
 }
 
+/// Also at the borders of whole characters, and after backslashes that start no escape of a unit.
+TEST(ParsedMessage, HalfACharacterIsReplacedInAShortString) {
+  const std::pair<std::string, std::string> kCases[] = {
+      {"\\ud83d", "\xEF\xBF\xBD"},
+      {"x\\uDE00", "x\xEF\xBF\xBD"},
+      {"\\ude00\\ud83d", "\xEF\xBF\xBD\xEF\xBF\xBD"},
+      {"\\ud83d\\ud83d\\ude00", "\xEF\xBF\xBD\xF0\x9F\x98\x80"},
+      {"\\ud83d\\ude00\\ude00", "\xF0\x9F\x98\x80\xEF\xBF\xBD"},
+      {"\\ud83d\\u00e0", "\xEF\xBF\xBD\xC3\xA0"},
+      {"\\ud83d\\n", "\xEF\xBF\xBD\n"},
+      {"\\\\ud83d\\ud83d", "\\ud83d\xEF\xBF\xBD"},
+  };
+  for (const auto& [written, text] : kCases) {
+    const ParsedMessage parsed = ParsedMessage::parse(message_with(written));
+    ASSERT_FALSE(parsed.json.is_discarded()) << written;
+    EXPECT_EQ(parsed.text(parsed.json["a"][1]), text) << written;
+  }
+  for (const std::string written : {"\\ud83", "\\ud83x", "\\ud83d\\u", "\\ud83d\\x"})
+    EXPECT_TRUE(ParsedMessage::parse(message_with(written)).json.is_discarded()) << written;
+}
+
 TEST(ParsedMessage, WhatIsNoJsonIsNoneHoweverLong) {
   const std::string padding(ParsedMessage::kLong, 'x');
   for (const std::string& text : {"\"" + padding, padding, "{\"a\":\"" + padding + "\"", "[\"" + padding + "\"]]"})
