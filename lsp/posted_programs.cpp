@@ -9,6 +9,7 @@
 #include "interpreter/configuration/scenes.h"
 #include "interpreter/configuration/shape_files.h"
 #include "lsp/protocol/uri.h"
+#include "lsp/rpc/on_loop.h"
 
 namespace isocnc::lsp {
 
@@ -16,9 +17,9 @@ using rpc::Json;
 
 static constexpr std::chrono::milliseconds kMoment = input::Settling<int>::kMoment;
 
-PostedPrograms::PostedPrograms(rpc::Loop& loop, Outbox& outbox, documents::SettingsStore& settings,
+PostedPrograms::PostedPrograms(rpc::Loop& loop, rpc::Pool& pool, Outbox& outbox, documents::SettingsStore& settings,
                                std::function<void()> settled)
-    : loop_(loop), outbox_(outbox), settings_(settings), settled_(std::move(settled)) {}
+    : loop_(loop), outbox_(outbox), settings_(settings), settled_(std::move(settled)), reading_(pool) {}
 
 /// `**/*.[nN][cC]` for `.nc`: patterns have no other way to ignore case.
 static std::string pattern_of(std::string_view extension) {
@@ -36,14 +37,24 @@ static std::string pattern_of(std::string_view extension) {
 }
 
 void PostedPrograms::watch(const ClosedPrograms::Folders& folders, bool watches_programs) {
+  const std::uint64_t number = ++times_asked_;
+  if (!watches_programs) return register_patterns({});
+  const rpc::OnLoop<std::set<std::string>> take(loop_, [this, number](const std::set<std::string>& extensions) {
+    if (number == times_asked_) register_patterns(extensions);
+  });
+  reading_.post([&settings = settings_, folders, take] {
+    std::set<std::string> extensions;
+    for (const std::filesystem::path& folder : folders) {
+      const documents::DocumentSettings found = settings.of(folder / "program");
+      extensions.insert(found.configuration->lint.extensions.begin(), found.configuration->lint.extensions.end());
+    }
+    take(std::move(extensions));
+  });
+}
+
+void PostedPrograms::register_patterns(const std::set<std::string>& extensions) {
   static constexpr const char* kMethod = "workspace/didChangeWatchedFiles";
   static constexpr const char* kId = "files";
-  std::set<std::string> extensions;
-  if (watches_programs)
-    for (const std::filesystem::path& folder : folders) {
-      const documents::DocumentSettings settings = settings_.of(folder / "program");
-      extensions.insert(settings.configuration->lint.extensions.begin(), settings.configuration->lint.extensions.end());
-    }
   std::vector<std::string> patterns = {fmt::format("**/{}", configuration::kFileName),
                                        fmt::format("**/*{}", configuration::kSetupExtension)};
   for (const std::string_view extension : configuration::kShapeExtensions) patterns.push_back(pattern_of(extension));

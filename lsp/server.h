@@ -109,7 +109,7 @@ class Server final : public rpc::Peer {
   std::map<std::string, std::set<std::string>> current_texts_;
   documents::SettingsStore settings_;  // The one member that several threads use.
   PendingRequests pending_requests_{loop_, outbox_};
-  PostedPrograms posted_programs_{loop_, outbox_, settings_, [this] {
+  PostedPrograms posted_programs_{loop_, pool_, outbox_, settings_, [this] {
                                     refresh([](const features::Refresh& refresh) { return refresh.covers_closed; });
                                   }};
   OpenDocuments open_documents_;

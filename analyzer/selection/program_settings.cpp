@@ -34,6 +34,7 @@ const ProgramSettings& SettingsFinder::of(const std::filesystem::path& program) 
     const std::filesystem::path real = configuration::real_path(program.parent_path()) / program.filename();
     for (const FileOverrides& files : configuration.lint.files) holds.push_back(files.patterns.match(real));
   }
+  const std::lock_guard lock(mutex_);
   std::unique_ptr<const ProgramSettings>& settings = settings_[{&configuration, holds}];
   if (!settings) {
     const Selection selection = selection_of(configuration, holds, command_line_);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct ProgramSettings {
 };
 
 /// Finds the settings of programs: those of their configurations, overridden by the command line. The results are valid
-/// as long as this object and the configurations are.
+/// as long as this object and the configurations are. `of` may be called by several threads at the same time.
 class SettingsFinder {
  public:
   /// Errors in the options must have been reported before.
@@ -35,6 +36,7 @@ class SettingsFinder {
 
   configuration::Configurations& configurations_;
   const SelectionOptions command_line_;
+  std::mutex mutex_;  // Of the member below.
   std::map<SettingsKey, std::unique_ptr<const ProgramSettings>> settings_;
 };
 

@@ -40,14 +40,23 @@ static fs::path shown_path(const fs::path& file) {
 Configurations::Configurations(ConfigurationSource source, Language language)
     : source_(std::move(source)), language_(language) {}
 
+const Configuration* Configurations::find(const ByPath& known, const fs::path& path) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = known.find(system::generic_name(path));
+  return found == known.end() ? nullptr : found->second;
+}
+
+/// Another thread may have found the same meanwhile.
+const Configuration& Configurations::keep(ByPath& known, const fs::path& path, const Configuration& found) {
+  const std::lock_guard lock(mutex_);
+  return *known.try_emplace(system::generic_name(path), &found).first->second;
+}
+
 const Configuration& Configurations::in_folder(const fs::path& folder) {
-  const auto [known, is_new] = asked_.try_emplace(system::generic_name(folder), &none_);
-  if (!is_new || source_.none) return *known->second;
-  const bool is_loaded = source_.file && !files_.empty();
-  const Configuration& found = is_loaded      ? files_.front()->configuration
-                               : source_.file ? load(*source_.file, *source_.file)
-                                              : nearest(real_path(folder));
-  return *(asked_[system::generic_name(folder)] = &found);
+  if (source_.none) return none_;
+  if (source_.file) return load(*source_.file, *source_.file);
+  if (const Configuration* const before = find(asked_, folder)) return *before;
+  return keep(asked_, folder, nearest(real_path(folder)));
 }
 
 const Configuration& Configurations::of(const fs::path& path) {
@@ -66,15 +75,26 @@ static bool is_trouble(const std::error_code& error) {
          std::none_of(std::begin(kNoTrouble), std::end(kNoTrouble), [&](std::errc each) { return error == each; });
 }
 
+Configurations::File& Configurations::file_of(const fs::path& file) {
+  const std::lock_guard lock(mutex_);
+  File*& named = file_named_[system::generic_name(file)];
+  if (named == nullptr) named = files_.emplace_back(std::make_unique<File>()).get();
+  return *named;
+}
+
 const Configuration& Configurations::note_unreachable(const fs::path& file, const std::error_code& error) {
-  File& noted = *files_.emplace_back(std::make_unique<File>());
-  noted.configuration.file = file;
-  noted.problem = system::cannot_read(error, language_);
+  File& noted = file_of(file);
+  const std::lock_guard lock(noted.mutex);
+  if (!noted.is_read) {
+    noted.configuration.file = shown_path(file);
+    noted.problem = system::cannot_read(error, language_);
+    noted.is_read = true;
+  }
   return noted.configuration;
 }
 
 const Configuration& Configurations::nearest(const fs::path& folder) {
-  if (const auto known = folders_.find(system::generic_name(folder)); known != folders_.end()) return *known->second;
+  if (const Configuration* const before = find(folders_, folder)) return *before;
   const fs::path file = folder / kFileName;
   std::error_code error;
   const bool is_here = fs::exists(fs::symlink_status(file, error));  // Includes broken links, which are reported.
@@ -82,15 +102,22 @@ const Configuration& Configurations::nearest(const fs::path& folder) {
   if (is_here) {
     found = &load(file, shown_path(file));
   } else if (is_trouble(error)) {
-    found = &note_unreachable(shown_path(file), error);
+    found = &note_unreachable(file, error);
   } else if (folder.has_relative_path()) {
     found = &nearest(folder.parent_path());
   }
-  return *(folders_[system::generic_name(folder)] = found);
+  return keep(folders_, folder, *found);
 }
 
 const Configuration& Configurations::load(const fs::path& file, const fs::path& shown) {
-  File& loaded = *files_.emplace_back(std::make_unique<File>());
+  File& loaded = file_of(file);
+  const std::lock_guard lock(loaded.mutex);
+  if (!loaded.is_read) read(file, shown, loaded);
+  loaded.is_read = true;
+  return loaded.configuration;
+}
+
+void Configurations::read(const fs::path& file, const fs::path& shown, File& loaded) const {
   loaded.configuration.file = shown;
   std::error_code error;
   const auto complain = [&](Mistake mistake, std::string_view text) {
@@ -100,31 +127,36 @@ const Configuration& Configurations::load(const fs::path& file, const fs::path& 
   const fs::file_status status = fs::status(file, error);
   if (!source_.file && fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
     loaded.problem = mistakes::kNoFile.in(language_);
-    return loaded.configuration;
+    return;
   }
   const auto opened = SourceFile::open(file, language_);
   if (const auto* const problem = std::get_if<SourceFile::Problem>(&opened)) {
     loaded.problem = problem->message;
-    return loaded.configuration;
+    return;
   }
   const auto& source = std::get<SourceFile>(opened);
   if (source.has_byte_order_mark()) complain({.text = mistakes::kByteOrderMark}, {});
   if (source.text().size() > kLongestFile) {
     complain({.text = mistakes::kTooLarge}, {});
-    return loaded.configuration;
+    return;
   }
-  ReadConfiguration read = read_configuration(source.text(), real_path(file.parent_path()));
-  for (Mistake& mistake : read.mistakes) complain(std::move(mistake), source.text());
-  loaded.configuration = std::move(read.configuration);
+  ReadConfiguration content = read_configuration(source.text(), real_path(file.parent_path()));
+  for (Mistake& mistake : content.mistakes) complain(std::move(mistake), source.text());
+  loaded.configuration = std::move(content.configuration);
   loaded.configuration.file = shown;
   loaded.configuration.machine.file = shown;
-  return loaded.configuration;
 }
 
 std::vector<std::string> Configurations::mistakes(Language language) const {
+  std::vector<File*> files;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const std::unique_ptr<File>& file : files_) files.push_back(file.get());
+  }
   std::vector<std::string> lines;
   const std::string_view error = dialect::severity_name(dialect::Severity::Error, language);
-  for (const std::unique_ptr<File>& file : files_) {
+  for (File* const file : files) {
+    const std::lock_guard lock(file->mutex);
     const std::string name = system::generic_name(file->configuration.file);
     if (!file->problem.empty()) lines.push_back(text::printable(fmt::format("{}: {}: {}", name, error, file->problem)));
     for (const auto& [place, mistake] : file->mistakes)

@@ -8,12 +8,12 @@ namespace isocnc::documents {
 
 /// The configuration files read since the last forget().
 struct SettingsStore::Generation {
-  std::mutex mutex;  // Guards the members below.
   configuration::Configurations found{{}, system::user_language()};
   configuration::Configurations none{{.file = {}, .none = true}, system::user_language()};
   selection::SettingsFinder settings{found, {}};
   selection::SettingsFinder settings_of_none{none, {}};
   configuration::Scenes scenes{system::user_language()};
+  std::mutex mutex;  // Of the member below. The others have their own.
   std::set<std::filesystem::path> claimed;
 };
 
@@ -32,7 +32,6 @@ bool SettingsStore::claim(const std::filesystem::path& file) {
 
 DocumentSettings SettingsStore::of(const std::optional<std::filesystem::path>& program) {
   const auto generation = present();
-  const std::lock_guard lock(generation->mutex);
   if (!program)
     return {generation, &generation->settings_of_none.of({}), &generation->none.in_folder({}), &generation->scenes, {}};
   return {generation, &generation->settings.of(*program), &generation->found.in_folder(program->parent_path()),

@@ -30,7 +30,7 @@ class SettingsStore {
   SettingsStore();
 
   /// The settings of a program; may read files. A program without a path has no configuration. May be called on any
-  /// thread.
+  /// thread, which waits for no file that the program does not need.
   DocumentSettings of(const std::optional<std::filesystem::path>& program);
   /// Drops what was read, since files may have changed. May be called on any thread.
   void forget();
