@@ -246,8 +246,9 @@ void Server::change_settings(const rpc::CallPointer& call) {
   Client changed = *client_;
   const Json settings = params.is_object() && params.contains("settings") ? params["settings"] : Json();
   changed.settings = protocol::read_settings(settings.is_object() ? settings.value("isocnc", settings) : settings);
+  changed.settings.checks_workspace = client_->settings.checks_workspace;  // As at the start.
   client_ = std::make_shared<const Client>(std::move(changed));
-  reconfigure_documents();
+  reconfigure_all();  // The mistakes in configurations have another language, too.
 }
 
 void Server::look_at_changed_files(const rpc::CallPointer& call) {

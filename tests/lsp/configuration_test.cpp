@@ -106,6 +106,16 @@ TEST_F(ConfigurationFile, MistakesAreReportedOnceForAllItsPrograms) {
   EXPECT_THAT(reported_for("isocnc.json"), testing::IsEmpty());
 }
 
+TEST_F(ConfigurationFile, MistakesFollowTheLanguageOfTheEditor) {
+  write("isocnc.json", "{\n\"language\": 7}");
+  start();
+  session_.open(uri("a.iso"), "M02\n");
+  EXPECT_THAT(reported_for("isocnc.json"), ElementsAre("1:12-13 language: this is a number, and text is needed"));
+  session_.notify("workspace/didChangeConfiguration", {{"settings", {{"isocnc", {{"language", "it"}}}}}});
+  reported_for("isocnc.json");  // The first notification clears the old diagnostics.
+  EXPECT_THAT(reported_for("isocnc.json"), ElementsAre(HasSubstr("numero")));
+}
+
 TEST_F(ConfigurationFile, ThatIsNoTextIsReported) {
   write("isocnc.json", std::string_view("\xEF\xBB\xBF{}"));
   start();

@@ -250,6 +250,13 @@ TEST_F(Workspace, WatchesNoProgramsThatTheUserDoesNotWantChecked) {
   start_with(kWatched, {{"initializationOptions", {{"workspaceDiagnostics", false}}}});
   EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")),
             (Json{"**/isocnc.json", "**/*.setup.json", "**/*.[sS][tT][lL]", "**/*.[sS][tT][oO][cC][kK]"}));
+  // Whether they are checked is decided at the start.
+  session_.notify("workspace/didChangeConfiguration", {{"settings", {{"isocnc", {{"language", "it"}}}}}});
+  session_.wait_for("workspace/diagnostic/refresh");
+  session_.open(uri("good.iso"), "M02\n");
+  session_.request("textDocument/diagnostic", {{"textDocument", {{"uri", uri("good.iso")}}}});
+  EXPECT_FALSE(
+      session_.has([](const Json& message) { return message.value("method", "") == "client/registerCapability"; }));
 }
 
 /// A CAM system writes into an open folder, and the editor has not opened the program.
