@@ -26,8 +26,18 @@ fs::path setup_file(const fs::path& program) {
 
 bool is_setup_file(const fs::path& file) { return file.filename().generic_string().ends_with(kSetupExtension); }
 
-std::shared_ptr<const Scene> Scenes::of(const Configuration& configuration, const fs::path& program) {
+template <class Key, class Value>
+Value& Scenes::member_of(std::map<Key, Value>& scenes, const Key& key) {
   const std::lock_guard lock(mutex_);
+  return scenes[key];
+}
+
+void Scenes::note(SurroundingsMistake mistake) {
+  const std::lock_guard lock(mutex_);
+  mistakes_.push_back(std::move(mistake));
+}
+
+std::shared_ptr<const Scene> Scenes::of(const Configuration& configuration, const fs::path& program) {
   std::error_code error;
   if (program.has_filename()) {
     const fs::path file = setup_file(program);
@@ -38,14 +48,16 @@ std::shared_ptr<const Scene> Scenes::of(const Configuration& configuration, cons
 }
 
 Scenes::ScenePointer Scenes::own_scene(const Configuration& configuration, const fs::path& file) {
-  OwnScene& own = own_[{&configuration, system::generic_name(file)}];
+  OwnScene& own = member_of(own_, {&configuration, system::generic_name(file)});
+  const std::lock_guard lock(own.mutex);
   if (own.has_mistakes) return nullptr;
   if (ScenePointer known = own.scene.lock()) return known;
   const fs::path folder = real_path(file.parent_path());
   const std::optional<DescribedSetup> setup = read_setup_file(file, folder);
   const ScenePointer scene =
       setup ? make(configuration, LocatedSetup{.setup = *setup, .file = file, .folder = folder}) : nullptr;
-  own = {.has_mistakes = !scene, .scene = scene};
+  own.has_mistakes = !scene;
+  own.scene = scene;
   return scene;
 }
 
@@ -53,10 +65,10 @@ Scenes::ScenePointer Scenes::own_scene(const Configuration& configuration, const
 std::optional<DescribedSetup> Scenes::read_setup_file(const fs::path& file, const fs::path& folder) {
   const std::string shown = system::generic_name(file);
   const auto refuse = [&](const dialect::Text& text, std::vector<Named> names) {
-    mistakes_.push_back({.file = shown,
-                         .place = {},
-                         .mistake = {.at = 0, .key = {}, .text = text, .names = std::move(names), .meant = {}},
-                         .is_of_whole_file = true});
+    note({.file = shown,
+          .place = {},
+          .mistake = {.at = 0, .key = {}, .text = text, .names = std::move(names), .meant = {}},
+          .is_of_whole_file = true});
     return std::nullopt;
   };
   // A link to another folder would show what is in there.
@@ -78,7 +90,7 @@ std::optional<DescribedSetup> Scenes::read_setup_file(const fs::path& file, cons
     result = read_setup(text);
   }
   for (Mistake& mistake : result.mistakes)
-    mistakes_.push_back({.file = shown, .place = place_of(mistake.at, text), .mistake = std::move(mistake)});
+    note({.file = shown, .place = place_of(mistake.at, text), .mistake = std::move(mistake)});
   return result.mistakes.empty() ? std::optional(std::move(result.setup)) : std::nullopt;
 }
 
@@ -94,7 +106,6 @@ std::optional<std::size_t> Scenes::entry_of(const Configuration& configuration, 
 
 bool Scenes::is_mistaken(const Configuration& configuration, const fs::path& program) {
   if (of(configuration, program)) return false;
-  const std::lock_guard lock(mutex_);
   std::error_code error;
   if (program.has_filename() && fs::exists(fs::symlink_status(setup_file(program), error))) return true;
   return entry_of(configuration, program) || !configuration.machine.bodies.empty();
@@ -105,15 +116,17 @@ Scenes::ScenePointer Scenes::scene_of_entry(const Configuration& configuration, 
   const std::optional<std::size_t> last = entry_of(configuration, program);
   // A program that no entry names is told, wherever others have one.
   if (!last && configuration.machine.bodies.empty() && configuration.setups.empty()) return nullptr;
-  const auto [known, is_new] = entries_.try_emplace({&configuration, last});
-  if (is_new && last) {
-    known->second = make(
+  EntryScene& entry = member_of(entries_, {&configuration, last});
+  const std::lock_guard lock(entry.mutex);
+  if (!entry.is_made && last) {
+    entry.scene = make(
         configuration,
         LocatedSetup{.setup = configuration.setups[*last], .file = configuration.file, .folder = configuration.folder});
-  } else if (is_new) {
-    known->second = make(configuration, std::nullopt);
+  } else if (!entry.is_made) {
+    entry.scene = make(configuration, std::nullopt);
   }
-  return known->second;
+  entry.is_made = true;
+  return entry.scene;
 }
 
 Scenes::ScenePointer Scenes::make(const Configuration& configuration, const std::optional<LocatedSetup>& setup) {
@@ -123,6 +136,7 @@ Scenes::ScenePointer Scenes::make(const Configuration& configuration, const std:
     mistake.key = request.shape.key;
     const std::string file = system::generic_name(request.file);
     const LineColumn place = request.shape.place.shown;
+    const std::lock_guard lock(mutex_);
     if (missing_shapes_.emplace(file, place.line, place.column).second)
       mistakes_.push_back({.file = file, .place = place, .mistake = std::move(mistake), .is_of_shape = true});
   };

@@ -37,7 +37,7 @@ struct SurroundingsMistake {
 
 /// The scenes of programs. The file beside a program outweighs the `setups` of its configuration. Files are read when a
 /// program first needs them, and those with shapes once; another object sees what has changed since. All functions may
-/// be called by several threads at the same time.
+/// be called by several threads at the same time: a caller waits for the files that it needs, and for no others.
 class Scenes {
  public:
   /// `language` is the language of system errors about files.
@@ -62,10 +62,21 @@ class Scenes {
 
   /// The scene of a program with a setup of its own.
   struct OwnScene {
+    std::mutex mutex;  // Of the other members.
     bool has_mistakes = false;
     std::weak_ptr<const verification::Scene> scene;
   };
 
+  /// The scene of an entry of `setups`, or of the machine alone.
+  struct EntryScene {
+    std::mutex mutex;  // Of the other members.
+    bool is_made = false;
+    ScenePointer scene;
+  };
+
+  template <class Key, class Value>
+  Value& member_of(std::map<Key, Value>& scenes, const Key& key);
+  void note(SurroundingsMistake mistake);
   ScenePointer own_scene(const Configuration& configuration, const std::filesystem::path& file);
   std::optional<DescribedSetup> read_setup_file(const std::filesystem::path& file, const std::filesystem::path& folder);
   ScenePointer scene_of_entry(const Configuration& configuration, const std::filesystem::path& program);
@@ -73,14 +84,14 @@ class Scenes {
   ScenePointer make(const Configuration& configuration, const std::optional<LocatedSetup>& setup);
 
   const dialect::Language language_;
-  mutable std::mutex mutex_;  // Of all below.
   ShapeFiles files_;
+  mutable std::mutex mutex_;  // Of the members below, but not of the scenes in them. No file is read under it.
   std::vector<SurroundingsMistake> mistakes_;
   /// Where files name shapes that cannot be had, by file, line and column: one of the machine is missing from many
   /// scenes, and reported once.
   std::set<std::tuple<std::string, std::size_t, std::size_t>> missing_shapes_;
-  std::map<std::pair<const Configuration*, std::optional<std::size_t>>, ScenePointer> entries_;  // By index in setups.
-  std::map<std::pair<const Configuration*, std::string>, OwnScene> own_;                         // By file.
+  std::map<std::pair<const Configuration*, std::optional<std::size_t>>, EntryScene> entries_;  // By index in setups.
+  std::map<std::pair<const Configuration*, std::string>, OwnScene> own_;                       // By file.
 };
 
 }  // namespace isocnc::configuration

@@ -1,6 +1,5 @@
 #include "interpreter/configuration/shape_files.h"
 
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -98,21 +97,26 @@ static std::optional<fs::path> file_below(const fs::path& folder, const std::str
 }
 
 /// What a file holds, which is read the first time that it is asked for.
-template <class Loaded>
-static const Loaded& loaded(std::map<std::pair<std::string, std::string>, Loaded>& known, const fs::path& folder,
-                            const std::string& name, const std::function<Loaded(const fs::path& file)>& read) {
-  const auto [place, is_new] = known.try_emplace({system::generic_name(folder), name});
-  if (!is_new) return place->second;
+template <class Loaded, class Read>
+const Loaded& ShapeFiles::loaded(LoadedFiles<Loaded>& files, const fs::path& folder, const std::string& name,
+                                 const Read& read) {
+  LoadedFile<Loaded>& known = [&]() -> LoadedFile<Loaded>& {
+    const std::lock_guard lock(mutex_);
+    return files[{system::generic_name(folder), name}];
+  }();
+  const std::lock_guard lock(known.mutex);
+  if (known.content) return *known.content;
   const std::optional<fs::path> file = file_below(folder, name);
-  return place->second = file ? read(*file) : mistake(mistakes::kOutsideFolder, name);
+  return known.content.emplace(file ? read(*file) : Loaded(mistake(mistakes::kOutsideFolder, name)));
 }
 
 ShapeFiles::MeshOrMistake ShapeFiles::mesh(const fs::path& folder, const std::string& name,
                                            const std::optional<geometry::Vec3>& shift) {
   const MeshOrMistake& unshifted =
-      loaded<MeshOrMistake>(meshes_, folder, name, [&](const fs::path& file) { return read_mesh(file, name); });
+      loaded(meshes_, folder, name, [&](const fs::path& file) { return read_mesh(file, name); });
   const auto* const mesh = std::get_if<std::shared_ptr<const Mesh>>(&unshifted);
   if (mesh == nullptr || !shift || shift->isZero(0)) return unshifted;
+  const std::lock_guard lock(mutex_);
   const std::tuple key(system::generic_name(folder), name, shift->x(), shift->y(), shift->z());
   if (const auto known = shifted_.find(key); known != shifted_.end()) return known->second;
   const solids::BoundingBox box = (*mesh)->bounds().translated(*shift);
@@ -151,7 +155,7 @@ ShapeFiles::StockOrMistake ShapeFiles::read_stock(const fs::path& file, const st
 }
 
 ShapeFiles::StockOrMistake ShapeFiles::stock(const fs::path& folder, const std::string& name) {
-  return loaded<StockOrMistake>(stocks_, folder, name, [&](const fs::path& file) { return read_stock(file, name); });
+  return loaded(stocks_, folder, name, [&](const fs::path& file) { return read_stock(file, name); });
 }
 
 }  // namespace isocnc::configuration

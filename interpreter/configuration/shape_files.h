@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,7 +25,8 @@ inline constexpr std::size_t kLargestMesh = std::size_t{512} * 1024 * 1024;
 inline constexpr std::string_view kShapeExtensions[] = {".stl", ".stock"};
 
 /// The meshes of STL files, and the stocks of files that `isorun --stock-out` has written. Each file is read once, and
-/// bodies with the same file and shift share one mesh.
+/// bodies with the same file and shift share one mesh. All functions may be called by several threads at the same time:
+/// a caller waits for the file that it needs, and for no other.
 class ShapeFiles {
  public:
   using MeshOrMistake = std::variant<std::shared_ptr<const solids::Mesh>, Mistake>;
@@ -41,14 +43,26 @@ class ShapeFiles {
   StockOrMistake stock(const std::filesystem::path& folder, const std::string& name);
 
  private:
-  using FolderAndName = std::pair<std::string, std::string>;
+  /// What files hold, by folder and name.
+  template <class Loaded>
+  struct LoadedFile {
+    std::mutex mutex;  // Of the other member, which does not change once it is there.
+    std::optional<Loaded> content;
+  };
+  template <class Loaded>
+  using LoadedFiles = std::map<std::pair<std::string, std::string>, LoadedFile<Loaded>>;
+
+  template <class Loaded, class Read>
+  const Loaded& loaded(LoadedFiles<Loaded>& files, const std::filesystem::path& folder, const std::string& name,
+                       const Read& read);
 
   MeshOrMistake read_mesh(const std::filesystem::path& file, const std::string& name) const;
   StockOrMistake read_stock(const std::filesystem::path& file, const std::string& name) const;
 
   const dialect::Language language_;
-  std::map<FolderAndName, MeshOrMistake> meshes_;
-  std::map<FolderAndName, StockOrMistake> stocks_;
+  std::mutex mutex_;  // Of the members below, but not of the files in them. No file is read under it.
+  LoadedFiles<MeshOrMistake> meshes_;
+  LoadedFiles<StockOrMistake> stocks_;
   /// By folder, name and shift.
   std::map<std::tuple<std::string, std::string, double, double, double>, std::shared_ptr<const solids::Mesh>> shifted_;
 };
