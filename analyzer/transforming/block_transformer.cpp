@@ -55,7 +55,8 @@ class ArgumentWords {
     const Word* const word = find(letter);
     return word == nullptr ? otherwise : word->value;
   }
-  const Word& first() const { return *words_.front(); }
+  /// Null where there are none, as of a G00 before another G that the control refuses.
+  const Word* first() const { return words_.empty() ? nullptr : words_.front(); }
   /// Those with one of these letters, as they are written.
   std::vector<const Word*> of(std::string_view letters) const {
     std::vector<const Word*> found;
@@ -71,14 +72,15 @@ class ArgumentWords {
 std::string text_of(const WantedWord& wanted) { return wanted.letter + number_like("", wanted.value, wanted.decimals); }
 
 /// Writes the wanted words in place of those with these letters: each in place of the one with its letter, or else of
-/// one whose letter is not wanted any more, or else after the last one, or after `anchor` if there is none.
+/// one whose letter is not wanted any more, or else after the last one, or after `anchor` if there is none. The anchor
+/// may be null where nothing is wanted.
 void write(LineEdits& edits, const std::vector<const Word*>& present, const std::vector<WantedWord>& wanted,
-           const Word& anchor) {
+           const Word* anchor) {
   std::vector<const Word*> free;
   for (const Word* word : present)
     if (std::none_of(wanted.begin(), wanted.end(), [&](const WantedWord& each) { return each.letter == word->letter; }))
       free.push_back(word);
-  const Word& last = present.empty() ? anchor : *present.back();
+  const Word* const last = present.empty() ? anchor : present.back();
   for (const WantedWord& each : wanted) {
     const auto same =
         std::find_if(present.begin(), present.end(), [&](const Word* word) { return word->letter == each.letter; });
@@ -88,7 +90,7 @@ void write(LineEdits& edits, const std::vector<const Word*>& present, const std:
       edits.change(*free.front(), each.letter, each.value, each.decimals);
       free.erase(free.begin());
     } else {
-      edits.insert_after(last, text_of(each));
+      edits.insert_after(*last, text_of(each));
     }
   }
 }
@@ -229,7 +231,7 @@ void BlockTransformer::edit_frame(const Instruction& instruction, const State& b
     for (int axis = 0; axis < 3; ++axis)
       if (words.has("XYZ"[axis]) || std::abs(origin[axis]) > kNothing)
         wanted.push_back({"XYZ"[axis], origin[axis], length_decimals(before)});
-    write(*edits_, words.of("XYZ"), wanted, line_->command(instruction));
+    write(*edits_, words.of("XYZ"), wanted, &line_->command(instruction));
   }
   if (code.role == GRole::FaceByAngles) {
     edit_face_angles(instruction, map);
@@ -255,7 +257,7 @@ void BlockTransformer::edit_face_axes(const Instruction& instruction, const Stat
       const char letter = letters[static_cast<std::size_t>(i)];
       if (words.has(letter) || std::abs(vector[i]) > kNothing) wanted.push_back({letter, vector[i], Decimals::kVector});
     }
-    write(*edits_, words.of(letters), wanted, line_->command(instruction));
+    write(*edits_, words.of(letters), wanted, &line_->command(instruction));
   }
 }
 
@@ -268,7 +270,7 @@ void BlockTransformer::edit_face_angles(const Instruction& instruction, const Po
   if (words.has('B')) wanted.push_back({'B', b, Decimals::kDegrees});
   if (words.has('C') || std::abs(c) > kNothing) wanted.push_back({'C', c, Decimals::kDegrees});
   const std::vector<const Word*> origin = words.of("XYZ");
-  write(*edits_, words.of("BC"), wanted, origin.empty() ? line_->command(instruction) : *origin.back());
+  write(*edits_, words.of("BC"), wanted, origin.empty() ? &line_->command(instruction) : origin.back());
 }
 
 /// Exchanges G41 and G42.

@@ -147,6 +147,8 @@ TEST_P(Refusals, NameTheirLine) {
 
 const RefusalCase kRefusals[] = {
     {"AnError", kMirrorX, "M06 T101001\nG00 X1\nG01 X2\nM02\n", 3, TransformObstacle::ProgramError, "ISO066"},
+    {"AMotionWithoutArguments", kShift, "M06 T101001\nG00 X0 Y0 Z5\nG00 G02 X5 Y5 R3\nM02\n", 3,
+     TransformObstacle::ProgramError, "ISO0"},
     {"NoEnd", kMirrorX, "M06 T101001\nG00 X1\n", 2, TransformObstacle::ProgramError, "ISO045"},
     {"TwoPaths", kMirrorX, "M06 T101001\nG00 X1 Y0 Z0\nIF VGPL = 1 GOTO N5\nG91\nN5 G00 X3\nG90\nM02\n", 5,
      TransformObstacle::OnTwoPaths, "two paths"},
