@@ -10,6 +10,7 @@
 
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/configuration/scenes.h"
+#include "interpreter/system/paths.h"
 #include "lsp/background/work_title.h"
 #include "lsp/documents/configuration_diagnostics.h"
 #include "lsp/feature_list.h"
@@ -150,11 +151,15 @@ void DocumentWorker::report_described(const std::filesystem::path& shown, const 
                                                                client.language(settings.configuration->language))));
 }
 
-/// A run has read the files with shapes around the program, and knows what is wrong with them.
+/// A run has read the files with shapes around the program, and knows what is wrong with them. The files that describe
+/// other programs are reported with those.
 void DocumentWorker::report_shapes(const Client& client) {
+  const documents::DocumentSettings& settings = document_.settings();
+  std::set<std::string> own = {system::generic_name(settings.configuration->file)};
+  if (!settings.file.empty()) own.insert(system::generic_name(configuration::setup_file(settings.file)));
   std::set<std::string> files;
-  for (const configuration::SurroundingsMistake& each : document_.settings().scenes->all_mistakes())
-    if (each.is_of_shape) files.insert(each.file);
+  for (const configuration::SurroundingsMistake& each : settings.scenes->all_mistakes())
+    if (each.is_of_shape && own.contains(each.file)) files.insert(each.file);
   for (const std::string& file : files) report_described(file, client);
 }
 
