@@ -136,9 +136,11 @@ Scenes::ScenePointer Scenes::make(const Configuration& configuration, const std:
     mistake.key = request.shape.key;
     const std::string file = system::generic_name(request.file);
     const LineColumn place = request.shape.place.shown;
+    const fs::path real = real_path(request.file);
     const std::lock_guard lock(mutex_);
     if (missing_shapes_.emplace(file, place.line, place.column).second)
-      mistakes_.push_back({.file = file, .place = place, .mistake = std::move(mistake), .is_of_shape = true});
+      mistakes_.push_back(
+          {.file = file, .place = place, .mistake = std::move(mistake), .real_file = real, .is_of_shape = true});
   };
   const auto shape_in = [&](auto loaded, const ShapeRequest& request) {
     if (const auto* const mistake = std::get_if<Mistake>(&loaded)) {

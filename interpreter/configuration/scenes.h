@@ -30,9 +30,10 @@ bool is_setup_file(const std::filesystem::path& file);
 struct SurroundingsMistake {
   std::string file;  ///< As shown to users.
   LineColumn place;
-  Mistake mistake;                ///< Its place in the text is not known.
-  bool is_of_whole_file = false;  ///< It has no place.
-  bool is_of_shape = false;       ///< `mistake.key` names a file with a shape, and `mistake.names` starts with it.
+  Mistake mistake;                  ///< Its place in the text is not known.
+  bool is_of_whole_file = false;    ///< It has no place.
+  std::filesystem::path real_file;  ///< The file without symlinks, where it is one of a shape.
+  bool is_of_shape = false;         ///< `mistake.key` names a file with a shape, and `mistake.names` starts with it.
 };
 
 /// The scenes of programs. The file beside a program outweighs the `setups` of its configuration. Files are read when a

@@ -107,8 +107,7 @@ static const Mistake* mistake_of(const configuration::ShapeFile& shape, const fs
                                  const std::vector<configuration::SurroundingsMistake>& known) {
   for (const configuration::SurroundingsMistake& each : known) {
     if (!each.is_of_shape || each.mistake.key != shape.key || each.mistake.names.empty()) continue;
-    if (each.mistake.names.front().en == configuration::shortened(shape.name) &&
-        configuration::real_path(each.file) == file)
+    if (each.mistake.names.front().en == configuration::shortened(shape.name) && each.real_file == file)
       return &each.mistake;
   }
   return nullptr;
