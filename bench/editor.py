@@ -1,4 +1,4 @@
-"""What the benchmarks of isols and isodap share: a client that speaks through pipes, and the programs that it opens."""
+"""A client that speaks with isols or isodap through pipes, for benchmarks and the soak test; and the programs that benchmarks open."""
 
 import json
 import re
@@ -16,8 +16,9 @@ BUILD = Path(__file__).resolve().parent.parent / "build/release"
 class Client:
     """A server and the messages that have come from it, each with the time at which it was there."""
 
-    def __init__(self, program):
-        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
+    def __init__(self, program, **options):
+        """`options` are those of Popen."""
+        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0, **options)
         self.messages = []
         self.changed = threading.Condition()
         self.has_ended = False
@@ -55,6 +56,11 @@ class Client:
 
     def send(self, message):
         self.send_bytes(json.dumps(message).encode())
+
+    def anonymous_bytes(self):
+        """The server's memory that is no file."""
+        status = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
+        return int(re.search(r"RssAnon:\s+(\d+)", status)[1]) * 1024
 
     def wait(self, fits, seconds=120):
         """The next message that fits, and when it was there."""

@@ -79,10 +79,6 @@ class Server(editor.Client):
         self.send_bytes(body.encode())
         return start
 
-    def anonymous_bytes(self):
-        status = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
-        return int(re.search(r"RssAnon:\s+(\d+)", status)[1]) * 1024
-
     def stop(self):
         self.request("shutdown", None)
         self.notify("exit", None)
