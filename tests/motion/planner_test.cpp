@@ -78,16 +78,25 @@ TEST(Planner, ExactStopsStopOnThePoint) {
 }
 
 TEST(Planner, ARestTakesItsTime) {
-  const kinematics::Machine machine = uniform_machine(1000, 2000);
-  Planner planner(machine);
-  planner.push(line(kOrigin, {10, 0, 0}, speed(100)));
-  planner.rest(2.5);
-  planner.push(line({10, 0, 0}, {20, 0, 0}, speed(100)));
-  planner.rest();
-  double start = 0;
-  while (const Stretch* stretch = planner.next()) start = stretch->start;
-  EXPECT_NEAR(start, trapezoid(10, 100, 2000) + 2.5, 1e-12);
-  EXPECT_NEAR(planner.time(), 2 * trapezoid(10, 100, 2000) + 2.5, 1e-12);
+  const std::vector<kinematics::Move> moves = {line(kOrigin, {10, 0, 0}, speed(100)),
+                                               line({10, 0, 0}, {20, 0, 0}, speed(100))};
+  for (const kinematics::Machine& machine :
+       {uniform_machine(1000, 2000), with_jerk(uniform_machine(1000, 2000), 20000)}) {
+    const double one = time_of(machine, {moves[0]});
+    Planner planner(machine);
+    planner.push(moves[0]);
+    planner.rest(2.5);
+    planner.push(moves[1]);
+    planner.rest();
+    double end_of_first = 0;
+    double start_of_second = 0;
+    while (const Stretch* stretch = planner.next()) {
+      if (stretch->path.value_at(0).x() < 10) end_of_first = stretch->start + stretch->duration;
+      if (start_of_second == 0 && stretch->start > end_of_first + 1) start_of_second = stretch->start;
+    }
+    EXPECT_NEAR(start_of_second, one + 2.5, 1e-9);
+    EXPECT_NEAR(planner.time(), 2 * one + 2.5, 1e-9);
+  }
 }
 
 /// A parabola that cuts d = 4 tolerance / |e2 - e1| from both sides, at v^2 = 2 d a / |e2 - e1| by axis.
@@ -113,6 +122,49 @@ TEST(Planner, ARightAngleIsRoundedWithinTheTolerance) {
   EXPECT_TRUE(stretches[1].ends_move);
   EXPECT_EQ(stretches[2].tag, 1U);
   EXPECT_FALSE(stretches[2].ends_move);
+}
+
+/// docs/motion.md: a slow feed needs less of a parabola than the tolerance permits: d = w |q2' - q1'| / 2 A.
+TEST(Planner, ACornerIsNoLongerThanTheFeedNeeds) {
+  const kinematics::Machine machine = uniform_machine(1000, 2000);
+  const double turn = 10 * std::numbers::pi / 180;
+  std::vector<kinematics::Move> moves = {line(kOrigin, {20, 0, 0}, speed(50))};
+  moves.push_back(line({20, 0, 0}, Vec3(20, 0, 0) + 20 * Vec3(std::cos(turn), std::sin(turn), 0), speed(50)));
+  moves[1].tag = 1;
+  const auto stretches = plan(machine, moves);
+  ASSERT_EQ(stretches.size(), 4U);
+  EXPECT_NEAR(stretches[1].phases[0].speed, 50, 1e-9);
+  EXPECT_NEAR(stretches[1].duration + stretches[2].duration, 50 * std::sin(turn) / 2000, 1e-12);
+}
+
+/// The same where B and C turn: the corner is passed at the feed, and takes nearly all that an axis has.
+TEST(Planner, ACornerInFiveAxesIsNoLongerThanTheFeedNeeds) {
+  for (const kinematics::Machine& machine : {kinematics::head_router(), kinematics::table_router()}) {
+    std::vector<kinematics::Move> moves = {line(kOrigin, {20, 0, 0}, speed(40)),
+                                           line({20, 0, 0}, {40, 5, 0}, speed(40))};
+    moves[0].to.b = moves[1].from.b = 1;
+    moves[1].to.b = 4;
+    moves[1].to.c = 3;
+    moves[1].tag = 1;
+    for (kinematics::Move& move : moves) move.tool_length = 100;
+    const auto stretches = plan(machine, moves);
+    double fullest = 0;
+    int corners = 0;
+    for (const Stretch& stretch : stretches) {
+      if (stretch.path.c[2].isZero(0)) continue;
+      ++corners;
+      EXPECT_NEAR(stretch.phases[0].speed, 40, 1e-9);
+      for (int i = 0; i <= 10; ++i) {
+        const Sample sample = stretch.at(machine.kinematics, stretch.start + stretch.duration * i / 10);
+        for (int axis = 0; axis < kinematics::kAxisCount; ++axis)
+          fullest = std::max(fullest, std::abs(sample.joint_accelerations[axis]) /
+                                          machine.axes[static_cast<std::size_t>(axis)].acceleration);
+      }
+    }
+    EXPECT_EQ(corners, 2);
+    EXPECT_GT(fullest, 0.97);
+    EXPECT_LE(fullest, 1);
+  }
 }
 
 /// docs/motion.md: where an element is too short for the tolerance, a corner takes a quarter d of it from each end, and
