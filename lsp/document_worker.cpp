@@ -133,11 +133,11 @@ static std::string published(const std::string& uri, Json diagnostics) {
 void DocumentWorker::report_configuration(const Client& client) {
   const documents::DocumentSettings& settings = document_.settings();
   const std::filesystem::path& found = settings.configuration->file;
-  if (!found.empty() && settings_.claim(found)) report_described(found, client);
+  if (!found.empty() && settings_.claim(settings, found)) report_described(found, client);
   if (settings.file.empty()) return;
   const std::filesystem::path setup = configuration::setup_file(settings.file);
   std::error_code error;
-  if (std::filesystem::exists(std::filesystem::symlink_status(setup, error)) && settings_.claim(setup))
+  if (std::filesystem::exists(std::filesystem::symlink_status(setup, error)) && settings_.claim(settings, setup))
     report_described(setup, client);
 }
 
@@ -146,6 +146,8 @@ void DocumentWorker::report_described(const std::filesystem::path& shown, const 
   const documents::DocumentSettings& settings = document_.settings();
   const std::filesystem::path file = configuration::real_path(shown.parent_path()) / shown.filename();
   const std::string uri = protocol::uri_of(file);
+  const std::unique_lock turn = settings_.turn_to_report(settings, file);
+  if (!turn.owns_lock()) return;
   notifier_.configuration(
       uri, published(uri, documents::configuration_diagnostics(file, *settings.scenes, client.encoding,
                                                                client.language(settings.configuration->language))));

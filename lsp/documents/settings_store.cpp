@@ -24,10 +24,22 @@ std::shared_ptr<SettingsStore::Generation> SettingsStore::present() {
   return generation_;
 }
 
-bool SettingsStore::claim(const std::filesystem::path& file) {
+bool SettingsStore::claim(const DocumentSettings& settings, const std::filesystem::path& file) {
   const auto generation = present();
+  if (settings.owner != generation) return false;
   const std::lock_guard lock(generation->mutex);
   return generation->claimed.insert(file).second;
+}
+
+std::unique_lock<std::mutex> SettingsStore::turn_to_report(const DocumentSettings& settings,
+                                                           const std::filesystem::path& file) {
+  const auto turn_of = [&]() -> std::mutex& {
+    const std::lock_guard lock(mutex_);
+    return turns_[file];
+  };
+  std::unique_lock turn(turn_of());
+  if (settings.owner != present()) turn.unlock();
+  return turn;
 }
 
 DocumentSettings SettingsStore::of(const std::optional<std::filesystem::path>& program) {

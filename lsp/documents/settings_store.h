@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -35,16 +36,21 @@ class SettingsStore {
   /// Drops what was read, since files may have changed. May be called on any thread.
   void forget();
   /// True for the first call about this configuration file since the last forget(): that caller has to report the
-  /// file's findings. May be called on any thread.
-  bool claim(const std::filesystem::path& file);
+  /// file's findings. False for settings from before it. May be called on any thread.
+  bool claim(const DocumentSettings& settings, const std::filesystem::path& file);
+  /// A lock to be held while the findings in a configuration file are put together and reported, so that what was put
+  /// together later is reported later. Not owned for settings from before the last forget(): others report the file
+  /// then. May be called on any thread.
+  std::unique_lock<std::mutex> turn_to_report(const DocumentSettings& settings, const std::filesystem::path& file);
 
  private:
   struct Generation;
 
   std::shared_ptr<Generation> present();
 
-  std::mutex mutex_;
+  std::mutex mutex_;  // Of the members below, but not of the turns in them.
   std::shared_ptr<Generation> generation_;
+  std::map<std::filesystem::path, std::mutex> turns_;
 };
 
 }  // namespace isocnc::documents
