@@ -15,7 +15,7 @@ void JumpCollector::add(std::size_t line, const FlowEvent& event) {
 }
 
 JumpMap JumpCollector::finish() && {
-  JumpMap map(std::move(sites_), before_ ? *before_ : JumpMap());
+  JumpMap map(std::move(sites_), before_);
   if (!map.empty()) map.follow(std::move(events_));
   return map;
 }

@@ -195,17 +195,17 @@ static std::vector<JumpMap::Site> sites_in(std::string_view text) {
   return sites;
 }
 
-JumpMap::JumpMap(std::string_view text) : JumpMap(sites_in(text), JumpMap()) {
+JumpMap::JumpMap(std::string_view text) : JumpMap(sites_in(text), nullptr) {
   if (compares_registers()) read_labels(text);
 }
 
 JumpMap JumpMap::with_labels(std::string_view text) {
-  JumpMap map(sites_in(text), JumpMap());
+  JumpMap map(sites_in(text), nullptr);
   if (!map.empty()) map.read_labels(text);
   return map;
 }
 
-JumpMap::JumpMap(std::vector<Site> sites, const JumpMap& before)
+JumpMap::JumpMap(std::vector<Site> sites, const JumpMap* before)
     : sites_(std::move(sites)), knows_labels_(sites_.empty()) {
   if (sites_.empty()) return;
   filter_.resize(16384);
@@ -226,13 +226,13 @@ static int compared_by(const syntax::Jump& jump) {
 }
 
 /// Takes over the constants of registers that the same jumps compare as before: to sort them all takes longest.
-void JumpMap::find_constants(const JumpMap& before) {
+void JumpMap::find_constants(const JumpMap* before) {
   RegisterSet differs = ~RegisterSet{0};
-  if (sites_.size() == before.sites_.size()) {
+  if (before && sites_.size() == before->sites_.size()) {
     differs = 0;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       const syntax::Jump& jump = sites_[i].jump;
-      const syntax::Jump& old = before.sites_[i].jump;
+      const syntax::Jump& old = before->sites_[i].jump;
       const int now = compared_by(jump);
       const int then = compared_by(old);
       if (now == then && (now == 0 || jump.value == old.value)) continue;
@@ -250,7 +250,7 @@ void JumpMap::find_constants(const JumpMap& before) {
     if ((differs & register_bit(reg)) != 0) {
       sort_once(values);
     } else {
-      values = before.constants(reg);
+      values = before->constants(reg);
     }
   }
 }

@@ -159,9 +159,9 @@ class JumpMap {
     friend bool operator==(const Reads&, const Reads&) = default;
   };
 
-  /// The map of the jumps alone, without labels. `before`: of the program before an edit.
-  JumpMap(std::vector<Site> sites, const JumpMap& before);
-  void find_constants(const JumpMap& before);
+  /// The map of the jumps alone, without labels. `before`: of the program before an edit; may be null.
+  JumpMap(std::vector<Site> sites, const JumpMap* before);
+  void find_constants(const JumpMap* before);
   void read_labels(std::string_view text);
   void follow(std::vector<ReducedEvent> events);
   void find_reads(const std::vector<ReducedEvent>& events);

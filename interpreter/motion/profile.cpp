@@ -181,7 +181,17 @@ static Course on_curve(std::span<const kinematics::CurveBound> forward,
   double high_excess = excess(at_cap);
   if (high_excess <= 0) return at_cap;
   double low = std::max(entry, exit);
-  double low_excess = excess(over(low));
+  const double up = kinematics::acceleration(forward, entry, low);
+  const double down = kinematics::acceleration(backward, exit, low);
+  double low_excess = excess(over_peak(low, entry, exit, up, down));
+  // The higher the peak, the less the accelerations, so that no peak is above that of these two.
+  const double highest = (2 * length + entry / up + exit / down) / (1 / up + 1 / down);
+  if (highest < high) {
+    high = std::max(highest, low);
+    const Course course = over(high);
+    high_excess = excess(course);
+    if (high_excess <= 0 && high > low) return course;
+  }
   Course best = straight(length, entry, exit);
   for (int i = 0; i < kPeakSteps && low_excess < -kPeakPrecision * length && high - low > kPeakPrecision * high; ++i) {
     // A little below the length of the span, so that rounding makes no course too long. Near the cap a course can

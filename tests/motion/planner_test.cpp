@@ -268,6 +268,19 @@ TEST(Planner, APivotThatSwingsIsLimitedByTheLinearAxes) {
   EXPECT_GT(fastest, 100);
 }
 
+/// From rest to rest, while the tip rests: B turns, and X swings the arm of 180 + 100 mm. However short, it has a peak.
+TEST(Planner, AShortTurnOfTheHeadIsATriangle) {
+  const kinematics::Machine machine = kinematics::head_router();
+  const double by_swing = machine.axes[kinematics::kX].acceleration / (280 * std::numbers::pi / 180);
+  for (const double degrees : {1e-7, 1e-5, 4e-4, 1e-3, 0.01, 0.1}) {
+    kinematics::Move move = line(kOrigin, kOrigin, speed(1000));
+    move.to.b = degrees;
+    move.tool_length = 100;
+    const double expected = 2 * std::sqrt(degrees / std::min(machine.axes[kinematics::kB].acceleration, by_swing));
+    EXPECT_NEAR(time_of(machine, {move}), expected, 0.001 * expected) << degrees;
+  }
+}
+
 TEST(Planner, SplitArcsStayWithinTheChordTolerance) {
   kinematics::Machine machine = uniform_machine(1000, 2000);
   machine.chord_tolerance = 0.02;
