@@ -6,11 +6,10 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from day import Day
 from debug_client import DebugClient
 from failure import Failure, require
-from flatness import Flatness
-from shop import MACHINES, SETUPS, Shop, generated
-from world import World
+from shop import MACHINES, SETUPS, generated
 
 WALKS_PER_HOUR = 40  # Each in a program of its own, in the same process or a new one.
 STEPS = 25  # In a walk.
@@ -24,42 +23,20 @@ FILTERS = ("errors", "warnings", "limits", "contacts", "run", "toolChange", "fir
 EXPRESSIONS = ("X", "Z + 1", "XM", "F", "S", "T", "V3,x", "LINE", "TIME", "CLEARANCE", "REMOVED", "MOTION", "nothing", "1 +", "VGPL && 1")
 
 
-class DebuggerDay:
+class DebuggerDay(Day):
     def __init__(self, programs: Path, seed: int, hours: float, fault: str, folder: Path):
-        self.program = programs / "isodap"
-        self.seed = seed
+        super().__init__(programs / "isodap", seed, "debugged", fault, folder, MAX_THREADS)
         self.walks = max(4, round(hours * WALKS_PER_HOUR))
-        self.fault = fault
-        self.folder = folder
-        self.temporary = folder / "tmp"
-        self.temporary.mkdir()
-        self.world = World(folder, folder / "shop" / "network")
-        self.choices = random.Random(f"{seed}/debugged")
-        self.shop = Shop(folder / "shop", self.world, self.choices)
         self.shop.write(self.shop.root / "jobs/isocnc.json", json.dumps(MACHINES[2]).encode())
         self.shop.write(self.shop.root / "jobs/job40-0.setup.json", SETUPS[0])
         self.standard = self.shop.root / "jobs/measured.iso"
         self.shop.write(self.standard, generated(random.Random(seed), 300).encode())
-        self.number = 0
-        self.place = "start"
         self.clients: list[DebugClient] = []
-        self.flatness = Flatness("isodap", self.world, MAX_THREADS)
-        self.counts: dict[str, int] = {}
-
-    def chance(self, share: float) -> bool:
-        return self.choices.random() < share
-
-    def count(self, what: str) -> None:
-        self.counts[what] = self.counts.get(what, 0) + 1
 
     # --- Sessions
 
     def new_client(self) -> DebugClient:
-        environment = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "TMPDIR": str(self.temporary), **self.world.environment()}
-        if self.fault:
-            environment["ISOCNC_SOAK_FAULT"] = self.fault
-        self.number += 1
-        client = DebugClient(self.program, self.world, environment, self.folder / f"isodap-{self.number}.log")
+        client = DebugClient(self.program, self.world, self.environment(), self.next_log())
         self.clients.append(client)
         client.request("initialize", adapterID="isocnc", supportsInvalidatedEvent=True, supportsProgressReporting=True)
         return client

@@ -10,12 +10,11 @@ import time
 from pathlib import Path
 
 import world as worlds
+from day import Day
 from failure import Failure, require
-from flatness import Flatness
 from language_client import CANCELLED, PATIENCE, LanguageClient
-from shop import BROKEN, MACHINES, SETUPS, Shop, generated
+from shop import BROKEN, MACHINES, SETUPS, generated
 from text_document import TextDocument
-from world import World
 
 SPRINTS_PER_HOUR = 24
 SPRINT_S = 3600 / SPRINTS_PER_HOUR
@@ -56,31 +55,19 @@ def patched(data: bytes, change: dict) -> bytes:
     return new if start is None else data[:start] + new + data[start + change["removed"] :]
 
 
-class ServerDay:
-    def __init__(self, programs: Path, seed: int, hours: float, faults: str, folder: Path):
-        self.program = programs / "isols"
-        self.seed = seed
+class ServerDay(Day):
+    def __init__(self, programs: Path, seed: int, hours: float, fault: str, folder: Path):
+        super().__init__(programs / "isols", seed, "shop", fault, folder, MAX_THREADS)
         self.sprints = max(1, round(hours * SPRINTS_PER_HOUR))
-        self.fault = faults
-        self.folder = folder
-        self.temporary = folder / "tmp"
-        self.temporary.mkdir()
-        self.world = World(folder, folder / "shop" / "network")
-        self.choices = random.Random(f"{seed}/shop")
-        self.shop = Shop(folder / "shop", self.world, self.choices)
         self.sentinel = folder / "sentinel" / "sentinel.iso"
         self.sentinel.parent.mkdir()
         (self.sentinel.parent / "isocnc.json").write_text(json.dumps({"machine": {"axes": {"X": {"min": 0, "max": 10}}}}))
         # The same programs at each measurement.
         self.standard = [TextDocument(self.uri(file), self.text_of(file)) for file in self.choices.sample(sorted(self.shop.programs()), 6)]
         self.standard.append(TextDocument((folder / "shop/jobs/measured.iso").as_uri(), generated(random.Random(seed), 800)))
-        self.number = 0
-        self.place = "start"
         self.documents: dict[str, TextDocument] = {}
         self.clients: list[LanguageClient] = []
         self.editor: subprocess.Popen | None = None  # The process of the client, as the server is told.
-        self.flatness = Flatness("isols", self.world, MAX_THREADS)
-        self.counts: dict[str, int] = {}
         self.errors_seen: dict[str, int] = {}
         self.times_waited = 0
         self.settings: dict = {}
@@ -95,9 +82,6 @@ class ServerDay:
 
     def text_of(self, file: Path) -> str:
         return self.shop.files[file].decode(errors="replace")
-
-    def chance(self, share: float) -> bool:
-        return self.choices.random() < share
 
     @property
     def encoding(self) -> str:
@@ -153,12 +137,8 @@ class ServerDay:
         return profile
 
     def new_server(self, process: int | None) -> LanguageClient:
-        environment = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "TMPDIR": str(self.temporary), **self.world.environment()}
-        if self.fault:
-            environment["ISOCNC_SOAK_FAULT"] = self.fault
-        self.number += 1
         self.clients = [each for each in self.clients if each.process.poll() is None]
-        client = LanguageClient(self.program, environment, self.folder / f"isols-{self.number}.log")
+        client = LanguageClient(self.program, self.environment(), self.next_log())
         self.clients.append(client)
         client.start({"processId": process, "rootUri": None, "capabilities": self.profile["capabilities"], "locale": self.profile["locale"],
                       "initializationOptions": self.settings, "workspaceFolders": [{"uri": self.uri(each), "name": each.name} for each in self.workspace]})  # fmt: skip
@@ -228,9 +208,6 @@ class ServerDay:
         self.count(f"end: {way}{', the disk asleep' if is_asleep else ''}")
 
     # --- Oracles
-
-    def count(self, what: str) -> None:
-        self.counts[what] = self.counts.get(what, 0) + 1
 
     def synchronize(self, client: LanguageClient, uris) -> None:
         """All that was sent about these documents is done."""
