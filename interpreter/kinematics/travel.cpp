@@ -18,12 +18,21 @@ using geometry::Vec3;
 
 /// Distance of grid points between which a joint has at most one peak, radians of B, C and the arc together.
 static constexpr double kGridTurn = 3 * std::numbers::pi / 180;
+/// Search for a peak: maximum number of steps, and the part of the path that is narrow enough.
 static constexpr int kPeakSteps = 60;
+static constexpr double kPeakWidth = 1e-12;
 /// Maximum number of grid points. Rotary axes do not turn far enough in one move to need more.
 static constexpr int kMaxGridPoints = 10'000;
 
 /// Minimum number of grid points of a part of a rapid that turns, on which the joints are polynomials.
 static constexpr int kPolynomialGrid = 8;
+
+/// A place on a path, and its derivative by the path parameter.
+template <typename Vector>
+struct ValueAndSlope {
+  Vector value;
+  Vector slope;
+};
 
 /// The path of a move, or of a part of a rapid, as a function of the part of it that is traveled, 0 to 1.
 class MovePath {
@@ -39,17 +48,25 @@ class MovePath {
     turned_[kC] = move.to.c - move.from.c;
   }
 
-  Coordinates joints(double part) const {
-    Coordinates there = path_.path.at(part * path_.length).value;
-    if (is_arc()) there += part * turned_;
-    return path().is_of_joints ? there : inverse(machine_.kinematics, there, path().tool_length);
+  /// Position and slope of the joints.
+  ValueAndSlope<Coordinates> joints(double part) const {
+    Jet there = path_.path.at(part * path_.length);
+    if (is_arc() && path_.length > 0) {
+      there.value += part * turned_;
+      there.first += turned_ / path_.length;
+    }
+    if (!path().is_of_joints) there = inverse(machine_.kinematics, there, path().tool_length);
+    return {there.value, there.first};
+  }
+  /// Position and slope of the tip.
+  ValueAndSlope<Vec3> tip_place(double part) const {
+    const Jet there = path().tip_at(machine_.kinematics, part * path_.length);
+    return {there.value.head<3>(), there.first.head<3>()};
   }
 
-  Vec3 tip(double part) const { return path().tip_at(machine_.kinematics, part * path_.length).value.head<3>(); }
+  Vec3 tip(double part) const { return tip_place(part).value; }
   /// Returns the speed of the tip if the whole path takes one second, mm/s.
-  double tip_speed(double part) const {
-    return path_.length * path().tip_at(machine_.kinematics, part * path_.length).first.head<3>().norm();
-  }
+  double tip_speed(double part) const { return path_.length * tip_place(part).slope.norm(); }
 
   const Path& path() const { return path_.path; }
   bool is_arc() const { return path().kind == PathKind::Circle; }
@@ -80,34 +97,54 @@ static auto on_grid(int count, At&& at) {
   return grid;
 }
 
-/// Returns the place between two parts of the path where a coordinate is farthest in the direction of `sign`.
-template <typename At>
-static double farthest_between(At&& at, int axis, double sign, double low, double high) {
-  for (int i = 0; i < kPeakSteps; ++i) {
-    const double third = (high - low) / 3;
-    if (sign * at(low + third)[axis] > sign * at(high - third)[axis]) {
-      high -= third;
+/// Returns the part of the path between two others at which a coordinate's slope is 0. `low_slope` and `high_slope` are
+/// the slopes there, of which the first is positive and the second negative. False position: the slope of the end that
+/// stays is halved, or else that end would stay for ever.
+template <typename Slope>
+static double level_between(Slope&& slope, double low, double low_slope, double high, double high_slope) {
+  for (int i = 0; i < kPeakSteps && high - low > kPeakWidth; ++i) {
+    const double part = low + (high - low) * low_slope / (low_slope - high_slope);
+    const double found = slope(part);
+    if (found == 0) return part;
+    if (found > 0) {
+      low = part;
+      low_slope = found;
+      high_slope /= 2;
     } else {
-      low += third;
+      high = part;
+      high_slope = found;
+      low_slope /= 2;
     }
   }
   return (low + high) / 2;
 }
 
-/// Returns the place where a coordinate is farthest: next to one of the grid's peaks, or at an end of the path.
+/// Returns the part of the path at which a coordinate is farthest in the direction of `sign`: next to one of the grid's
+/// peaks, or at an end of the path.
 template <typename At, typename Point>
 static double farthest(At&& at, const std::vector<Point>& grid, int axis, double sign) {
   const std::size_t last = grid.size() - 1;
   const auto part = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(last); };
+  const auto value = [&](std::size_t i) { return sign * grid[i].value[axis]; };
+  const auto slope = [&](std::size_t i) { return sign * grid[i].slope[axis]; };
   double best = 0;
-  const auto consider = [&](double candidate) {
-    if (sign * at(candidate)[axis] > sign * at(best)[axis]) best = candidate;
+  double best_value = value(0);
+  const auto consider = [&](double candidate, double reached) {
+    if (reached > best_value) best = candidate;
+    best_value = std::max(best_value, reached);
   };
-  consider(1);
+  consider(1, value(last));
   for (std::size_t i = 0; i <= last; ++i) {
-    const auto is_below = [&](std::size_t k) { return sign * grid[k][axis] <= sign * grid[i][axis]; };
-    const bool is_peak = (i == 0 || is_below(i - 1)) && (i == last || is_below(i + 1));
-    if (is_peak) consider(farthest_between(at, axis, sign, i == 0 ? 0 : part(i - 1), i == last ? 1 : part(i + 1)));
+    const bool is_peak = (i == 0 || value(i - 1) <= value(i)) && (i == last || value(i + 1) <= value(i));
+    if (!is_peak) continue;
+    consider(part(i), value(i));
+    // The peak is on the side to which the coordinate still rises.
+    if (slope(i) == 0 || (i == 0 && slope(i) < 0) || (i == last && slope(i) > 0)) continue;
+    const std::size_t low = slope(i) > 0 ? i : i - 1;
+    if (!(slope(low) > 0 && slope(low + 1) < 0)) continue;
+    const double found = level_between([&](double there) { return sign * at(there).slope[axis]; }, part(low),
+                                       slope(low), part(low + 1), slope(low + 1));
+    consider(found, sign * at(found).value[axis]);
   }
   return best;
 }
@@ -123,7 +160,7 @@ static std::vector<Overtravel> beyond(const Machine& machine, const MovePath& pa
       const double limit = sign < 0 ? limits.minimum : limits.maximum;
       if (std::isinf(limit)) continue;
       const double part = find(axis, sign);
-      const double position = path.joints(part)[axis];
+      const double position = path.joints(part).value[axis];
       if (sign * (position - limit) > kTravelSlack)
         found.push_back({static_cast<MachineAxis>(axis), part, position, limit});
     }
@@ -134,11 +171,11 @@ static std::vector<Overtravel> beyond(const Machine& machine, const MovePath& pa
 std::vector<Overtravel> overtravels(const Machine& machine, const Move& move) {
   const MovePath path(machine, move);
   if (path.has_straight_joints()) {
-    const Coordinates change = path.joints(1) - path.joints(0);
+    const Coordinates change = path.joints(1).value - path.joints(0).value;
     return beyond(machine, path, [&](int axis, double sign) { return sign * change[axis] > 0 ? 1.0 : 0.0; });
   }
   const auto at = [&](double part) { return path.joints(part); };
-  const std::vector<Coordinates> grid = on_grid(path.grid(), at);
+  const std::vector<ValueAndSlope<Coordinates>> grid = on_grid(path.grid(), at);
   return beyond(machine, path, [&](int axis, double sign) { return farthest(at, grid, axis, sign); });
 }
 
@@ -175,9 +212,13 @@ static TipTravel arc_travel(const Machine& machine, const Move& arc) {
 }
 
 static std::array<Range, 3> swing_extents(const MovePath& path, const geometry::Frame& frame) {
-  const auto at = [&](double part) { return frame.to_inner(path.tip(part)); };
-  const std::vector<Vec3> grid = on_grid(path.grid(), at);
-  const auto end = [&](int axis, double sign) { return at(farthest(at, grid, axis, sign))[axis]; };
+  const geometry::Mat3 to_frame = frame.axes.inverse();
+  const auto at = [&](double part) {
+    const ValueAndSlope<Vec3> tip = path.tip_place(part);
+    return ValueAndSlope<Vec3>{frame.to_inner(tip.value), to_frame * tip.slope};
+  };
+  const std::vector<ValueAndSlope<Vec3>> grid = on_grid(path.grid(), at);
+  const auto end = [&](int axis, double sign) { return at(farthest(at, grid, axis, sign)).value[axis]; };
   return {Range{end(0, -1), end(0, 1)}, Range{end(1, -1), end(1, 1)}, Range{end(2, -1), end(2, 1)}};
 }
 
