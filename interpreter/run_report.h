@@ -11,7 +11,7 @@
 #include "interpreter/plot/plot.h"
 #include "interpreter/simulation/compensation.h"
 #include "interpreter/simulation/run_findings.h"
-#include "interpreter/simulation/summary.h"
+#include "interpreter/summary/summary.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/verification/verified_run.h"
 #include "interpreter/verification/verifier_queue.h"
@@ -73,7 +73,7 @@ class RunReport {
   std::optional<system::OutputFile> samples_file_;
   system::OutputFile* trace_;
   system::OutputFile* samples_;
-  simulation::Summary summary_;
+  summary::Summary summary_;
   std::optional<system::OutputFile> stock_file_;
   std::optional<system::OutputFile> plot_file_;
   std::optional<plot::Plot> plot_;

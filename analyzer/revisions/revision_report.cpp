@@ -11,7 +11,7 @@
 #include "analyzer/selection/vgpl_values.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/running/event.h"
-#include "interpreter/simulation/summary.h"
+#include "interpreter/summary/summary.h"
 #include "interpreter/syntax/line_finder.h"
 #include "interpreter/text/unicode.h"
 
@@ -91,8 +91,8 @@ std::string tools_text(const RevisionComparison& compared, Language language) {
   for (const ToolTotals& each : totals) {
     const std::string name = running::tool_name(each.tool);
     if (comparison::shows_seconds(each.new_seconds - each.old_seconds))
-      text += dialect::format(kToolTime, language, name, simulation::shown_time(each.new_seconds),
-                              simulation::shown_time(each.old_seconds), each.new_seconds - each.old_seconds);
+      text += dialect::format(kToolTime, language, name, summary::shown_time(each.new_seconds),
+                              summary::shown_time(each.old_seconds), each.new_seconds - each.old_seconds);
     if (shows_volume(each.new_volume - each.old_volume))
       text += dialect::format(kToolVolume, language, name, fmt::format("{:.2f}", each.new_volume / 1000),
                               fmt::format("{:.2f}", each.old_volume / 1000));

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/dialect/format.h"
-#include "interpreter/simulation/summary.h"
+#include "interpreter/summary/summary.h"
 
 namespace isocnc::comparison {
 
@@ -362,8 +362,8 @@ std::string totals_text(const ComparedRuns& runs, Language language) {
   const RecordedRun& new_run = runs.new_run;
   std::string text;
   if (shows_seconds(new_run.seconds - old_run.seconds))
-    text += dialect::format(kCycleTime, language, simulation::shown_time(new_run.seconds),
-                            simulation::shown_time(old_run.seconds), new_run.seconds - old_run.seconds);
+    text += dialect::format(kCycleTime, language, summary::shown_time(new_run.seconds),
+                            summary::shown_time(old_run.seconds), new_run.seconds - old_run.seconds);
   if (shows_mm(new_run.feed_mm - old_run.feed_mm))
     text += dialect::format(kFeedLength, language, in_thousandths(new_run.feed_mm), in_thousandths(old_run.feed_mm));
   if (shows_mm(new_run.rapid_mm - old_run.rapid_mm))

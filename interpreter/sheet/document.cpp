@@ -7,7 +7,7 @@
 
 #include "interpreter/dialect/format.h"
 #include "interpreter/sheet/path_view.h"
-#include "interpreter/simulation/summary.h"
+#include "interpreter/summary/summary.h"
 
 namespace isocnc::sheet {
 
@@ -145,7 +145,7 @@ Table tools_table(const Sheet& sheet, Language language) {
                           {tool.least_z ? shown_rate(tool.feed) : "–"},
                           {shown(tool.least_z)},
                           {fmt::format("{}", tool.uses)},
-                          {simulation::shown_time(tool.seconds)}});
+                          {summary::shown_time(tool.seconds)}});
   }
   return table;
 }
@@ -167,7 +167,7 @@ Table zeros_table(const Sheet& sheet, Language language) {
     append_room(row, *sheet.machine_room);
     table.rows.push_back(std::move(row));
   }
-  for (const simulation::FrameExtents& frame : sheet.frames) {
+  for (const summary::FrameExtents& frame : sheet.frames) {
     std::vector<TableCell> row;
     row.push_back({frame.is_face ? dialect::format(kFaceOfLine, language, frame.line + 1)
                                  : dialect::format(kZeroOfLine, language, ++workpieces, frame.line + 1)});
@@ -233,7 +233,7 @@ NamedValues expected(const Sheet& sheet, Language language) {
   if (!registers.empty()) facts.rows.emplace_back(kRegisters.in(language), registers);
   for (const SheetPath& path : sheet.paths)
     facts.rows.emplace_back(path.values,
-                            simulation::shown_time(path.seconds) + (path.stop.empty() ? "" : "; " + path.stop));
+                            summary::shown_time(path.seconds) + (path.stop.empty() ? "" : "; " + path.stop));
   if (sheet.has_other_paths) facts.rows.emplace_back(worded(kOtherVgpl, language), worded(kNotRun, language));
   return facts;
 }
@@ -273,7 +273,7 @@ SheetDocument document_of(const Sheet& sheet, Language language) {
   facts.rows.emplace_back("SHA-256", sheet.hash);
   fact(kMachine, sheet.machine.empty() ? worded(kNoMachine, language) : sheet.machine);
   if (!sheet.values.empty() || !sheet.paths.empty()) fact(kRunWith, sheet.values.empty() ? "VGPL = 0" : sheet.values);
-  fact(kCycleTime, simulation::shown_time(sheet.seconds));
+  fact(kCycleTime, summary::shown_time(sheet.seconds));
   fact(kUnits, worded(kUnitsInForce, language));
   add(std::move(facts));
   if (!sheet.stop.empty()) add(Paragraph{dialect::format(kStopsThere, language, sheet.stop), true});

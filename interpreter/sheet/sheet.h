@@ -14,7 +14,7 @@
 #include "interpreter/geometry/range.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/sheet/drawing.h"
-#include "interpreter/simulation/frame_extents.h"
+#include "interpreter/summary/frame_extents.h"
 #include "interpreter/verification/scene.h"
 
 namespace isocnc::sheet {
@@ -75,8 +75,8 @@ struct Sheet {
   double seconds = 0;   ///< Cycle time with the tool that is mounted first.
   std::string stop;     ///< The error that ends the run before its end, and its line; empty for none.
   std::string values;   ///< What the run begins with: `VGPL = 2, V3 = 7`; empty where that is 0.
-  std::optional<geometry::Vec3> first_zero;  ///< Of the first workpiece frame, in the machine frame; none without one.
-  std::vector<simulation::FrameExtents> frames;  ///< With the room that the tip takes in each.
+  std::optional<geometry::Vec3> first_zero;   ///< Of the first workpiece frame, in the machine frame; none without one.
+  std::vector<summary::FrameExtents> frames;  ///< With the room that the tip takes in each.
   std::size_t frames_left_out = 0;
   /// The room of the tip before any frame is set, machine frame; none without a feed move there.
   std::optional<std::array<geometry::Range, 3>> machine_room;

@@ -149,7 +149,7 @@ class FactCollector {
   Sheet sheet_;
   std::vector<Seen> seen_;  ///< Of each tool.
   std::size_t tool_ = kNone;
-  simulation::FrameLog frames_;
+  summary::FrameLog frames_;
   Vec3 origin_ = Vec3::Zero();  ///< Of the workpiece frame in force; machine frame.
   simulation::Timing::SpindleMotion spindle_;
   double speed_ = 0;  ///< The last S.
@@ -217,7 +217,7 @@ std::optional<PenStroke> stroke_of(verification::BodyRole role) {
 std::vector<std::pair<Vec3, std::string>> numbered_zeros(const Sheet& sheet) {
   std::vector<std::pair<Vec3, std::string>> zeros;
   std::size_t number = 0;
-  for (const simulation::FrameExtents& frame : sheet.frames) {
+  for (const summary::FrameExtents& frame : sheet.frames) {
     if (frame.is_face) continue;
     const std::string name = fmt::format("{}", ++number);
     const auto same =

@@ -9,7 +9,7 @@
 #include "interpreter/configuration/read.h"
 #include "interpreter/configuration/show.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/simulation/summary.h"
+#include "interpreter/summary/summary.h"
 #include "require.h"
 
 namespace isocnc::fuzz {
@@ -22,7 +22,7 @@ static constexpr const char* kProgram =
 
 /// Whatever machine a file describes, a program on it takes a time that is a number, and has its summary.
 static void run_on(const configuration::MachineConfiguration& machine, bool is_summed_up) {
-  simulation::Summary summary(machine.timed);
+  summary::Summary summary(machine.timed);
   double last = 0;
   simulation::Timing timing(machine.timed, {.event = [&](const simulation::TimedEvent& timed) {
                               require(timed.start >= last - 1e-9 * last, "events come in the order of their times");

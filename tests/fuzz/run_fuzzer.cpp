@@ -6,7 +6,7 @@
 #include "interpreter/restart/restart.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/compensation.h"
-#include "interpreter/simulation/summary.h"
+#include "interpreter/summary/summary.h"
 #include "require.h"
 
 namespace isocnc::fuzz {
@@ -45,7 +45,7 @@ static simulation::TimedMachine machine() {
 static void time_program(std::string_view text) {
   constexpr double kLongestPath = 500;
   const simulation::TimedMachine timed_on = machine();
-  simulation::Summary summary(timed_on);
+  summary::Summary summary(timed_on);
   std::size_t taken = 0;
   std::size_t reported = 0;
   double last = 0;

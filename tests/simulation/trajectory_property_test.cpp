@@ -11,8 +11,8 @@
 
 #include "interpreter/kinematics/travel.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/simulation/summary.h"
 #include "interpreter/simulation/timing.h"
+#include "interpreter/summary/summary.h"
 #include "tests/support/random.h"
 
 /// Properties of simulated runs of whole programs: motions reach their ends, durations add up, and no joint or feed
@@ -275,7 +275,7 @@ double swung_length(const TimedMachine& machine, const kinematics::Move& move) {
 /// docs/isorun.md: `lengthMm` is the length of the tip's path, and the summary has the sum.
 TEST_P(Trips, TraceTheLengthsOfTheSummary) {
   for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
-    Summary summary(machine);
+    summary::Summary summary(machine);
     std::map<std::string, double> sums;
     for (const TimedEvent& timed : trip.motions) {
       summary.add(timed);

@@ -1,13 +1,13 @@
-#include "interpreter/simulation/summary.h"
+#include "interpreter/summary/summary.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace isocnc::simulation {
+namespace isocnc::summary {
 
 using execution::MoveKind;
 
-Summary::Summary(const TimedMachine& machine)
+Summary::Summary(const simulation::TimedMachine& machine)
     : machine_(machine),
       checks_travel_(std::any_of(machine.motion.axes.begin(), machine.motion.axes.end(), [](const auto& axis) {
         return std::isfinite(axis.minimum) || std::isfinite(axis.maximum);
@@ -36,13 +36,13 @@ static std::optional<Work> work_of(const running::Event& event) {
   return std::nullopt;
 }
 
-void Summary::add(const TimedEvent& timed) {
+void Summary::add(const simulation::TimedEvent& timed) {
   if (!timed.move) return add(timed, nullptr);
   kinematics::MadeMove made(machine_.motion, *timed.move);
   add(timed, &made);
 }
 
-void Summary::add(const TimedEvent& timed, kinematics::MadeMove* made) {
+void Summary::add(const simulation::TimedEvent& timed, kinematics::MadeMove* made) {
   has_inches_ |= timed.event.is_in_inches;
   const running::Event& event = timed.event;
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what)) mount(tool->tool);
@@ -50,7 +50,7 @@ void Summary::add(const TimedEvent& timed, kinematics::MadeMove* made) {
   spend(Work::Channel, timed.wait);
   if (const auto* const frame = std::get_if<running::FrameEvent>(&event.what)) frames_.take(*frame, event.line);
   if (const auto* const spindle = std::get_if<running::SpindleSpeedEvent>(&event.what))
-    ask_for(Limit::SpindleSpeed, spindle->speed, event.line);
+    ask_for(simulation::Limit::SpindleSpeed, spindle->speed, event.line);
   if (made != nullptr) add_move(std::get<running::MoveEvent>(event.what), *made, event.line);
 }
 
@@ -90,20 +90,20 @@ void Summary::look_at_travel(kinematics::MadeMove& made, std::size_t line) {
 }
 
 void Summary::look_at_speeds(kinematics::MadeMove& made, std::size_t line) {
-  const ProgrammedSpeeds speeds = programmed_speeds(made.move(), made.tip_travel().length);
-  ask_for(Limit::Feed, speeds.feed, line);
-  ask_for(Limit::RotarySpeed, speeds.rotary, line);
+  const simulation::ProgrammedSpeeds speeds = simulation::programmed_speeds(made.move(), made.tip_travel().length);
+  ask_for(simulation::Limit::Feed, speeds.feed, line);
+  ask_for(simulation::Limit::RotarySpeed, speeds.rotary, line);
 }
 
-void Summary::ask_for(Limit limit, double value, std::size_t line) {
-  if (!exceeds(limit, value, machine_)) return;
+void Summary::ask_for(simulation::Limit limit, double value, std::size_t line) {
+  if (!simulation::exceeds(limit, value, machine_)) return;
   std::optional<Excess>& excess = excesses_[static_cast<std::size_t>(limit)];
   if (!excess) excess = Excess{.line = line};
   excess->maximum = std::max(excess->maximum, value);
 }
 
 void Summary::finish(const running::RunResult& result, double seconds, const kinematics::Coordinates& joints,
-                     const std::vector<RunWarning>& warnings) {
+                     const std::vector<simulation::RunWarning>& warnings) {
   result_ = result;
   seconds_ = seconds;
   joints_ = joints;
@@ -116,4 +116,4 @@ geometry::Pose Summary::final_pose() const {
   return {state.to_machine(state.position.tip), state.position.b, state.position.c};
 }
 
-}  // namespace isocnc::simulation
+}  // namespace isocnc::summary

@@ -10,7 +10,7 @@
 #include "interpreter/kinematics/move.h"
 #include "interpreter/running/event.h"
 
-namespace isocnc::simulation {
+namespace isocnc::summary {
 
 /// The range of the tip's positions while a frame was in force, in its coordinates; mm.
 struct FrameExtents {
@@ -47,4 +47,4 @@ class FrameLog {
   std::optional<InForce> face_;
 };
 
-}  // namespace isocnc::simulation
+}  // namespace isocnc::summary

@@ -10,11 +10,11 @@
 #include "interpreter/kinematics/made_move.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/compensation.h"
-#include "interpreter/simulation/frame_extents.h"
 #include "interpreter/simulation/programmed_speeds.h"
 #include "interpreter/simulation/timing.h"
+#include "interpreter/summary/frame_extents.h"
 
-namespace isocnc::simulation {
+namespace isocnc::summary {
 
 /// Kinds of activity that take time. The first three have the order of execution::MoveKind.
 enum class Work : std::uint8_t { Rapid, Feed, Arc, Dwell, ToolChange, Spindle, Function, Channel };
@@ -49,14 +49,14 @@ struct Excess {
 /// Totals of a run.
 class Summary {
  public:
-  explicit Summary(const TimedMachine& machine);
+  explicit Summary(const simulation::TimedMachine& machine);
 
-  void add(const TimedEvent& timed);
+  void add(const simulation::TimedEvent& timed);
   /// The same, where others ask the motion as well. `made` is that of the event; null if it has none.
-  void add(const TimedEvent& timed, kinematics::MadeMove* made);
+  void add(const simulation::TimedEvent& timed, kinematics::MadeMove* made);
   /// `joints` are the positions at the end.
   void finish(const running::RunResult& result, double seconds, const kinematics::Coordinates& joints,
-              const std::vector<RunWarning>& warnings);
+              const std::vector<simulation::RunWarning>& warnings);
 
   std::string text(dialect::Language language) const;
   /// One line of JSON; its `error` is null or the error that stopped the program.
@@ -76,11 +76,11 @@ class Summary {
   void add_move(const running::MoveEvent& move, kinematics::MadeMove& made, std::size_t line);
   void look_at_travel(kinematics::MadeMove& made, std::size_t line);
   void look_at_speeds(kinematics::MadeMove& made, std::size_t line);
-  void ask_for(Limit limit, double value, std::size_t line);
+  void ask_for(simulation::Limit limit, double value, std::size_t line);
   /// Programmed tip position at the end.
   geometry::Pose final_pose() const;
 
-  const TimedMachine& machine_;
+  const simulation::TimedMachine& machine_;
   std::array<Travelled, 3> moves_;  ///< By MoveKind.
   std::optional<std::array<geometry::Range, execution::kAxisCount>> extents_;
   FrameLog frames_;
@@ -90,14 +90,14 @@ class Summary {
   std::array<std::optional<TravelBreach>, 2 * execution::kAxisCount>
       breaches_;  ///< Two per axis: below its minimum and above its maximum.
   bool checks_travel_;
-  std::array<std::optional<Excess>, kLimitCount> excesses_;
+  std::array<std::optional<Excess>, simulation::kLimitCount> excesses_;
   running::RunResult result_;
   bool has_inches_ = false;  ///< Some block is under G70.
   double seconds_ = 0;
   kinematics::Coordinates joints_ = kinematics::Coordinates::Zero();
-  std::vector<RunWarning> warnings_;
+  std::vector<simulation::RunWarning> warnings_;
   std::optional<geometry::Pose>
       reached_;  ///< End of the last motion; under compensation it may differ from the programmed end.
 };
 
-}  // namespace isocnc::simulation
+}  // namespace isocnc::summary

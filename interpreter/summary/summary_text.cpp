@@ -6,9 +6,9 @@
 
 #include "interpreter/dialect/format.h"
 #include "interpreter/running/error_message.h"
-#include "interpreter/simulation/summary.h"
+#include "interpreter/summary/summary.h"
 
-namespace isocnc::simulation {
+namespace isocnc::summary {
 
 using dialect::Language;
 using dialect::Text;
@@ -128,7 +128,8 @@ std::string Summary::text(Language language) const {
       said += say(kBreach, dialect::kAxisLetters[i / 2], breach->farthest, breach->limit, breach->line + 1);
   for (std::size_t i = 0; i < excesses_.size(); ++i)
     if (const auto& excess = excesses_[i])
-      said += say(kExcesses[i], excess->maximum, limit_of(static_cast<Limit>(i), machine_), excess->line + 1);
+      said +=
+          say(kExcesses[i], excess->maximum, limit_of(static_cast<simulation::Limit>(i), machine_), excess->line + 1);
   const geometry::Pose pose = final_pose();
   if (has_inches_) said += kInMillimeters.in(language);
   said += say(kFinal, pose.tip.x(), pose.tip.y(), pose.tip.z(), pose.b, pose.c);
@@ -177,7 +178,7 @@ static OrderedJson error_of(const running::RunResult& result, Language language)
           {"message", running::error_message(result, language)}};
 }
 
-static OrderedJson json_of(const RunWarning& warning, Language language) {
+static OrderedJson json_of(const simulation::RunWarning& warning, Language language) {
   const dialect::DiagnosticDef& def = dialect::definition(warning.id);
   return {{"line", warning.line + 1},
           {"code", def.code},
@@ -234,9 +235,9 @@ std::string Summary::json(std::string_view file, Language language) const {
       json["aboveLimits"].push_back({{"limit", kLimits[i]},
                                      {"line", excess->line + 1},
                                      {"most", excess->maximum},
-                                     {"allowed", limit_of(static_cast<Limit>(i), machine_)}});
+                                     {"allowed", limit_of(static_cast<simulation::Limit>(i), machine_)}});
   json["warnings"] = OrderedJson::array();
-  for (const RunWarning& warning : warnings_) json["warnings"].push_back(json_of(warning, language));
+  for (const simulation::RunWarning& warning : warnings_) json["warnings"].push_back(json_of(warning, language));
   const geometry::Pose pose = final_pose();
   json["final"] = {pose.tip.x(), pose.tip.y(), pose.tip.z(), pose.b, pose.c};
   json["finalJoints"] = {joints_[0], joints_[1], joints_[2], joints_[3], joints_[4]};
@@ -244,4 +245,4 @@ std::string Summary::json(std::string_view file, Language language) const {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + '\n';
 }
 
-}  // namespace isocnc::simulation
+}  // namespace isocnc::summary

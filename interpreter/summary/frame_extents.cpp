@@ -1,8 +1,8 @@
-#include "interpreter/simulation/frame_extents.h"
+#include "interpreter/summary/frame_extents.h"
 
 #include "interpreter/kinematics/travel.h"
 
-namespace isocnc::simulation {
+namespace isocnc::summary {
 
 static constexpr std::size_t kMaxFrames = 100;
 
@@ -46,4 +46,4 @@ void FrameLog::take(const kinematics::Machine& machine, const kinematics::Move& 
   for (std::size_t axis = 0; axis < all.size(); ++axis) all[axis].include(reached[axis]);
 }
 
-}  // namespace isocnc::simulation
+}  // namespace isocnc::summary
