@@ -173,7 +173,7 @@ static verification::Scene example_of_material(DiagnosticId id) {
 }
 
 std::vector<simulation::RunFinding> example_run(std::string_view program, DiagnosticId id) {
-  simulation::TimedMachine machine;
+  timing::TimedMachine machine;
   machine.tool_radii[{1, 1, 1}] = 10;
   if (id == "joint-travel"_diag) {
     machine.motion.axes[0].minimum = 0;
@@ -198,7 +198,7 @@ static Example example_of_fine_stock(Cause cause) {
   scene.resolution = 1e-4;
   const std::string program = "M06 T101001\nM02\n";
   for (const simulation::RunFinding& found :
-       selection::verified_on_paths(program, {}, simulation::TimedMachine(), &scene).outcome.findings)
+       selection::verified_on_paths(program, {}, timing::TimedMachine(), &scene).outcome.findings)
     if (found.finding.has(cause)) return {.line = "M06 T101001", .finding = found.finding};
   return {};
 }
@@ -206,7 +206,7 @@ static Example example_of_fine_stock(Cause cause) {
 /// A setup with a mistake is no part of a program.
 static Example example_of_mistaken_setup(Cause cause) {
   const std::string program = "M06 T101001\nM02\n";
-  verification::VerifiedRun run = selection::verified_on_paths(program, {}, simulation::TimedMachine(), nullptr);
+  verification::VerifiedRun run = selection::verified_on_paths(program, {}, timing::TimedMachine(), nullptr);
   verification::add_gap(run, {.gap = verification::Gap::SetupMistaken}, program);
   for (const simulation::RunFinding& found : run.outcome.findings)
     if (found.finding.has(cause)) return {.line = "M06 T101001", .finding = found.finding};

@@ -8,7 +8,6 @@
 
 #include "analyzer/check/check_text.h"
 #include "analyzer/check/folding.h"
-#include "analyzer/check/side_by_side.h"
 #include "analyzer/fixing/program_fixing.h"
 #include "analyzer/input/files.h"
 #include "analyzer/selection/run_report.h"
@@ -18,6 +17,7 @@
 #include "interpreter/system/process.h"
 #include "interpreter/system/system_texts.h"
 #include "interpreter/text/unicode.h"
+#include "interpreter/threads/side_by_side.h"
 #include "interpreter/verification/verification_report.h"
 
 namespace isocnc::analyzer {
@@ -42,7 +42,7 @@ LintRun::LintRun(const LintCommandOptions& options, const formats::ReportStyle& 
       files_(std::move(programs.files)),
       settings_(std::move(programs.settings)),
       renderer_(std::move(renderer)),
-      jobs_(options.jobs > 0 ? options.jobs : check::processor_count()),
+      jobs_(options.jobs > 0 ? options.jobs : threads::processor_count()),
       scenes_(style.language),
       progress_(command_line::terminal_writer(), input::bytes_of(files_)),
       output_(options) {}
@@ -72,7 +72,7 @@ bool LintRun::show_all() {
   }
   renderer_->begin(output_.buffer());
   const auto workers = std::min<std::size_t>(static_cast<std::size_t>(jobs_), files_.size());
-  check::side_by_side(static_cast<int>(workers), [this] { work(); });
+  threads::side_by_side(static_cast<int>(workers), [this] { work(); });
   progress_.clear();
   for (const std::string& mistake : scenes_.mistakes(style_.language)) {
     std::cerr << mistake << '\n';
@@ -145,7 +145,7 @@ void LintRun::verify(CheckedFile& checked, check::Report found, const selection:
   const selection::ProgramSettings& settings = checked.settings;
   const auto scene = options_.source.none ? nullptr : scenes_.of(settings.configuration, checked.name);
   const int jobs = jobs_for(text);
-  const auto together = [jobs](const std::function<void()>& work) { check::side_by_side(jobs, work); };
+  const auto together = [jobs](const std::function<void()>& work) { threads::side_by_side(jobs, work); };
   const verification::VerifiedRun run =
       selection::verified(text, settings, scene.get(), {.together = together, .material = options_.material});
   if (run.certificate) checked.certificate = verification::in_words(*run.certificate, style_.language);

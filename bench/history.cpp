@@ -23,7 +23,7 @@ struct Case {
 
   Program program;
   RunOptions options;
-  simulation::TimedMachine machine;
+  timing::TimedMachine machine;
   simulation::History history;
 };
 

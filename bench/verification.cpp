@@ -55,7 +55,7 @@ struct Case {
   }
 
   std::string_view program;
-  simulation::TimedMachine machine;
+  timing::TimedMachine machine;
   Scene scene;
   std::uint64_t motions = 0;
 };
@@ -64,13 +64,13 @@ struct Case {
 void run_alone(benchmark::State& state, const Case& of) {
   for (auto _ : state) {
     simulation::RunFindings findings(of.machine);
-    simulation::Timing timing(of.machine, {.event =
-                                               [&](const simulation::TimedEvent& timed) {
-                                                 if (!timed.move) return;
-                                                 kinematics::MadeMove made(of.machine.motion, *timed.move);
-                                                 findings.take(timed.event, made);
-                                               },
-                                           .stretch = {}});
+    timing::Timing timing(of.machine, {.event =
+                                           [&](const timing::TimedEvent& timed) {
+                                             if (!timed.move) return;
+                                             kinematics::MadeMove made(of.machine.motion, *timed.move);
+                                             findings.take(timed.event, made);
+                                           },
+                                       .stretch = {}});
     simulation::Compensation compensation(of.machine);
     const simulation::Compensation::Listeners compensated{
         .event = [&](const running::Event& event) { timing.take(event); },

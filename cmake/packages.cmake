@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
                                                 WORLD_READ WORLD_EXECUTE)
 set(programs ${ISOCNC_PROGRAMS})
-set(libraries fmt dialect text syntax geometry solids chords stock kinematics motion execution system git running simulation summary removal verification configuration tool_library restart comparison plot outline sheet
+set(libraries fmt dialect text syntax geometry solids chords stock kinematics motion execution system git running threads timing simulation summary removal verification configuration tool_library restart comparison plot outline sheet
               command_line rules style fixes check selection fixing formats revisions formatting transforming translation input analyzer)
 set(packaged ${CMAKE_BINARY_DIR}/packaged)
 

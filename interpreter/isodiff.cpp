@@ -15,7 +15,6 @@
 #include <fmt/format.h>
 
 #include "analyzer/check/jump_map.h"
-#include "analyzer/check/side_by_side.h"
 #include "analyzer/revisions/path_comparison.h"
 #include "analyzer/revisions/revision_report.h"
 #include "analyzer/selection/program_settings.h"
@@ -42,6 +41,7 @@
 #include "interpreter/system/user_language.h"
 #include "interpreter/text/lists.h"
 #include "interpreter/text/unicode.h"
+#include "interpreter/threads/side_by_side.h"
 
 namespace isocnc::interpreter {
 namespace {
@@ -301,7 +301,7 @@ std::optional<revisions::CompareOptions> read_compare_options(const DiffCommandO
   const auto comparison_options = read_comparison_options(options);
   if (!comparison_options) return std::nullopt;
   read.comparison = *comparison_options;
-  read.together = check::on_all_processors;
+  read.together = threads::on_all_processors;
   return read;
 }
 

@@ -6,26 +6,24 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analyzer/check/side_by_side.h"
 #include "interpreter/solids/stl.h"
 #include "interpreter/stock/stock_file.h"
 #include "interpreter/stock/surface.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/system_texts.h"
+#include "interpreter/threads/side_by_side.h"
 #include "interpreter/verification/verification_report.h"
 
 namespace isocnc::interpreter {
 
-RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& machine)
+RunReport::RunReport(const RunOutputs& outputs, const timing::TimedMachine& machine)
     : outputs_(outputs),
       machine_(machine),
       standard_output_(system::kStandardOutput),
       trace_(open(outputs.trace, trace_file_)),
       samples_(open(outputs.samples, samples_file_)),
       summary_(machine),
-      timing_(machine, {.event = [this](const simulation::TimedEvent& timed) { take(timed); },
-                        .stretch = [this](const motion::Stretch& stretch,
-                                          const simulation::TimedEvent& timed) { take(stretch, timed); }}),
+      timing_(machine, listeners()),
       findings_(machine),
       compensation_(machine),
       compensated_{.event = [this](const running::Event& event) { timing_.take(event); },
@@ -38,7 +36,7 @@ RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& 
   open(outputs.stock_out, stock_file_);
   const plot::PlotSubject& subject = outputs.subject;
   if (subject.scene) {
-    check::Crew& crew = crew_.emplace(check::processor_count());
+    threads::Crew& crew = crew_.emplace(threads::processor_count());
     const auto together = [&crew](const std::function<void()>& work) { crew.together(work); };
     verifier_.emplace(*subject.scene, machine, subject.origin,
                       crew.has_helpers() ? verification::WorkTogether(together) : verification::WorkTogether(),
@@ -57,6 +55,16 @@ RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& 
   last_sample_.joints = timing_.joints();
 }
 
+timing::TimingListeners RunReport::listeners() {
+  timing::TimingListeners listeners = {.event = [this](const timing::TimedEvent& timed) { take(timed); }};
+  const bool needs_stretches = outputs_.subject.scene || !outputs_.samples.empty() || !outputs_.plot.empty();
+  if (needs_stretches)
+    listeners.stretch = [this](const motion::Stretch& stretch, const timing::TimedEvent& timed) {
+      take(stretch, timed);
+    };
+  return listeners;
+}
+
 system::OutputFile* RunReport::open(const std::string& name, std::optional<system::OutputFile>& file) {
   if (name.empty()) return nullptr;
   if (name == "-") return &standard_output_;
@@ -71,7 +79,7 @@ void RunReport::close(system::OutputFile& output, const std::string& name) {
     problems_.push_back(*problem);
 }
 
-void RunReport::take(const simulation::TimedEvent& timed) {
+void RunReport::take(const timing::TimedEvent& timed) {
   std::optional<kinematics::MadeMove> made;
   if (timed.move) made.emplace(machine_.motion, *timed.move);
   summary_.add(timed, made ? &*made : nullptr);
@@ -85,7 +93,7 @@ void RunReport::take(const simulation::TimedEvent& timed) {
   last_sample_.tip = timing_.tip();
 }
 
-void RunReport::take(const motion::Stretch& stretch, const simulation::TimedEvent& timed) {
+void RunReport::take(const motion::Stretch& stretch, const timing::TimedEvent& timed) {
   if (verified_) verified_->take(stretch, timed);
   if (plot_) plot_->add(stretch);
   if (samples_ == nullptr) return;

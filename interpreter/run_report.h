@@ -6,13 +6,14 @@
 #include <string_view>
 #include <vector>
 
-#include "analyzer/check/side_by_side.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/plot/plot.h"
 #include "interpreter/simulation/compensation.h"
 #include "interpreter/simulation/run_findings.h"
 #include "interpreter/summary/summary.h"
 #include "interpreter/system/output_file.h"
+#include "interpreter/threads/crew.h"
+#include "interpreter/timing/timing.h"
 #include "interpreter/verification/verified_run.h"
 #include "interpreter/verification/verifier_queue.h"
 
@@ -35,7 +36,7 @@ struct RunOutputs {
 /// Receives the events of a run on a machine and writes the requested outputs.
 class RunReport {
  public:
-  RunReport(const RunOutputs& outputs, const simulation::TimedMachine& machine);
+  RunReport(const RunOutputs& outputs, const timing::TimedMachine& machine);
 
   /// Whether all files could be created; otherwise problems() has the reasons.
   bool is_ready() const { return problems_.empty(); }
@@ -55,10 +56,11 @@ class RunReport {
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
+  timing::TimingListeners listeners();
   system::OutputFile* open(const std::string& name, std::optional<system::OutputFile>& file);
   void close(system::OutputFile& output, const std::string& name);
-  void take(const simulation::TimedEvent& timed);
-  void take(const motion::Stretch& stretch, const simulation::TimedEvent& timed);
+  void take(const timing::TimedEvent& timed);
+  void take(const motion::Stretch& stretch, const timing::TimedEvent& timed);
   void sort_warnings();
   std::string summary(const verification::VerifiedRun& verified, const std::string& shown_findings) const;
   std::string stock_bytes(const verification::VerifiedRun& verified) const;
@@ -66,7 +68,7 @@ class RunReport {
   void write(const motion::Sample& sample);
 
   const RunOutputs& outputs_;
-  const simulation::TimedMachine& machine_;
+  const timing::TimedMachine& machine_;
   std::vector<std::string> problems_;
   system::OutputFile standard_output_;
   std::optional<system::OutputFile> trace_file_;
@@ -80,14 +82,14 @@ class RunReport {
   std::optional<plot::StockRecording> cuts_;  ///< For a page.
   std::uint64_t next_sample_ = 0;             ///< In units of sample_seconds.
   motion::Sample last_sample_;
-  simulation::Timing timing_;
+  timing::Timing timing_;
   simulation::RunFindings findings_;
   std::optional<verification::Verifier> verifier_;
   std::optional<verification::VerifierQueue> verified_;  ///< Leads to the verifier.
   std::vector<simulation::RunWarning> warnings_;
   simulation::Compensation compensation_;
   simulation::Compensation::Listeners compensated_;
-  std::optional<check::Crew> crew_;  ///< The last member, since its threads use the others.
+  std::optional<threads::Crew> crew_;  ///< The last member, since its threads use the others.
 };
 
 }  // namespace isocnc::interpreter

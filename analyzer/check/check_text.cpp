@@ -7,10 +7,10 @@
 
 #include "analyzer/check/checker.h"
 #include "analyzer/check/conclusion.h"
-#include "analyzer/check/side_by_side.h"
 #include "interpreter/syntax/line_finder.h"
 #include "interpreter/syntax/tree_store.h"
 #include "interpreter/text/characters.h"
+#include "interpreter/threads/side_by_side.h"
 
 namespace isocnc::check {
 
@@ -79,7 +79,7 @@ class Pass {
         checker_(setup, jumps, suspects_centers) {}
 
   void run() {
-    side_by_side(jobs_, [this] { work(); });
+    threads::side_by_side(jobs_, [this] { work(); });
   }
 
   const Checker& checker() const { return checker_; }

@@ -7,7 +7,7 @@
 #include "analyzer/selection/selection.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 #include "interpreter/verification/scene.h"
 
 /// Tries programs that are made of others, such as a restart, before they are written.
@@ -15,7 +15,7 @@ namespace isocnc::formats {
 
 /// The machine on which a program is tried, and what of it is shown.
 struct TrialMachine {
-  const simulation::TimedMachine& timed;
+  const timing::TimedMachine& timed;
   const verification::Scene* scene;  ///< What stands around it; null for nothing.
   const selection::Selection& selection;
   dialect::Language language;

@@ -31,7 +31,7 @@ RevisionRun run_revision(const Revision& revision, running::RunOptions options,
       .programmed = [&](const running::Event& event) { findings.take(event); },
       .warning = [&](const simulation::RunWarning& warning) { findings.take(warning); },
       .made =
-          [&](const simulation::TimedEvent& timed, kinematics::MadeMove* made) {
+          [&](const timing::TimedEvent& timed, kinematics::MadeMove* made) {
             if (made != nullptr) findings.take(timed.event, *made);
             if (verifier) verifier->take(timed);
           },
@@ -49,7 +49,7 @@ RevisionRun run_revision(const Revision& revision, running::RunOptions options,
             run.findings = shown_findings(outcome, revision);
           }};
   if (verifier)
-    listeners.stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent& timed) {
+    listeners.stretch = [&](const motion::Stretch& stretch, const timing::TimedEvent& timed) {
       verifier->take(stretch, removal::MotionFacts(timed));
     };
   run.recorded = comparison::record(revision.text, std::move(options), revision.machine, listeners);

@@ -13,7 +13,7 @@ namespace isocnc::revisions {
 /// One of two programs that are compared, with what it runs on. All must outlive it.
 struct Revision {
   std::string_view text;
-  const simulation::TimedMachine& machine;
+  const timing::TimedMachine& machine;
   const execution::Setup& setup;
   const selection::Selection& selection;       ///< Of findings.
   const verification::Scene* scene = nullptr;  ///< What surrounds it, if it is to be verified.

@@ -109,7 +109,7 @@ class JoinedCertificates {
 }  // namespace
 
 VerifiedRun verified_on_paths(std::string_view text, const running::RunOptions& options,
-                              const simulation::TimedMachine& machine, const verification::Scene* scene,
+                              const timing::TimedMachine& machine, const verification::Scene* scene,
                               const verification::WorkTogether& together,
                               const verification::MaterialOptions& material) {
   VerifiedRun first = verification::verified_run(text, options, machine, scene, together, material);

@@ -30,7 +30,7 @@ verification::VerifiedRun verified(std::string_view text, const ProgramSettings&
 /// Where more than kMaxVerifiedPaths paths are left, or a jump depends on a register that the program has not assigned,
 /// a finding says so (W162). The certificate is that of all runs; the contacts are those of the first.
 verification::VerifiedRun verified_on_paths(std::string_view text, const running::RunOptions& options,
-                                            const simulation::TimedMachine& machine, const verification::Scene* scene,
+                                            const timing::TimedMachine& machine, const verification::Scene* scene,
                                             const verification::WorkTogether& together = {},
                                             const verification::MaterialOptions& material = {});
 

@@ -21,7 +21,7 @@ bool ExceptionFilters::judge_blocks() const {
          (is_on(ExceptionFilter::Warnings) && !warnings.empty()) || (is_on(ExceptionFilter::Run) && !of_run.empty());
 }
 
-bool ExceptionFilters::judge_motions(const simulation::TimedMachine& machine) const {
+bool ExceptionFilters::judge_motions(const timing::TimedMachine& machine) const {
   const auto& axes = machine.motion.axes;
   return is_on(ExceptionFilter::Limits) && std::any_of(axes.begin(), axes.end(), [](const auto& axis) {
            return std::isfinite(axis.minimum) || std::isfinite(axis.maximum);
@@ -43,7 +43,7 @@ Exception exception_of(ExceptionFilter filter, std::string message) {
 
 }  // namespace
 
-std::optional<Exception> find_overtravel(const kinematics::Move& move, const simulation::TimedMachine& machine,
+std::optional<Exception> find_overtravel(const kinematics::Move& move, const timing::TimedMachine& machine,
                                          bool is_in_inches, Language language) {
   const auto found = kinematics::overtravels(machine.motion, move);
   if (found.empty()) return std::nullopt;

@@ -12,7 +12,7 @@
 #include "debugger/expressions/expression.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 #include "interpreter/verification/contact.h"
 
 namespace isocnc::breakpoints {
@@ -71,7 +71,7 @@ class ExceptionFilters {
                                         dialect::Language language) const;
 
   /// Whether find_overtravel() can find anything. It need not be called otherwise.
-  bool judge_motions(const simulation::TimedMachine& machine) const;
+  bool judge_motions(const timing::TimedMachine& machine) const;
 
  private:
   /// Whether the filter is on, and its condition holds.
@@ -83,7 +83,7 @@ class ExceptionFilters {
 };
 
 /// What the axis limits say about a motion as the machine makes it, in inches if its block is under G70.
-std::optional<Exception> find_overtravel(const kinematics::Move& move, const simulation::TimedMachine& machine,
+std::optional<Exception> find_overtravel(const kinematics::Move& move, const timing::TimedMachine& machine,
                                          bool is_in_inches, dialect::Language language);
 
 }  // namespace isocnc::breakpoints

@@ -10,7 +10,7 @@ namespace isocnc::debuggee {
 
 /// A stretch of motion, or something else that takes time, or a tool change.
 struct RecordedPiece {
-  simulation::TimedEvent timed;  ///< The duration of a motion is not known.
+  timing::TimedEvent timed;  ///< The duration of a motion is not known.
   std::optional<motion::Stretch> stretch;
 
   double start() const { return stretch ? stretch->start : timed.start; }

@@ -12,7 +12,7 @@ using running::Runner;
 using running::RunOptions;
 using simulation::History;
 using simulation::Simulation;
-using simulation::TimedMachine;
+using timing::TimedMachine;
 
 Debuggee::Debuggee(ProgramText text, const RunOptions& options, const TimedMachine& machine)
     : text_(std::make_unique<const ProgramText>(std::move(text))),

@@ -35,10 +35,10 @@ struct MdiOutcome {
 /// change undoes it.
 class Debuggee {
  public:
-  Debuggee(ProgramText text, const running::RunOptions& options, const simulation::TimedMachine& machine);
+  Debuggee(ProgramText text, const running::RunOptions& options, const timing::TimedMachine& machine);
 
   const ProgramText& text() const { return *text_; }
-  const simulation::TimedMachine& machine() const { return *parts_.back().machine; }
+  const timing::TimedMachine& machine() const { return *parts_.back().machine; }
   const execution::Setup& setup() const { return options_->setup; }
   const simulation::Simulation& present() const { return history().present(); }
   /// Nothing has been executed yet.
@@ -111,7 +111,7 @@ class Debuggee {
   void set_state(const execution::State& state);
   /// The history from a change of the machine by hand, or from the start, to the next change.
   struct Part {
-    std::unique_ptr<const simulation::TimedMachine> machine;
+    std::unique_ptr<const timing::TimedMachine> machine;
     simulation::History history;
     std::uint64_t first_block = 0;
     std::size_t first_line = 0;
@@ -126,7 +126,7 @@ class Debuggee {
   template <class Find>
   std::optional<std::uint64_t> find_in_parts(std::uint64_t from, std::uint64_t blocks, const Find& find) const;
   void begin_part(const simulation::Simulation& from, const running::Runner& runner,
-                  const simulation::TimedMachine& machine);
+                  const timing::TimedMachine& machine);
 
   // On the heap, so that references to them stay valid when the debuggee is moved.
   std::unique_ptr<const ProgramText> text_;

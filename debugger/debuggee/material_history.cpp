@@ -83,7 +83,7 @@ void MaterialHistory::feed(MaterialCheck& check, const BlockRecord& record, doub
       if (is_motion && !takes_all) return;
       if (is_motion || std::holds_alternative<running::ToolEvent>(event->what)) continue;
       if (const auto* const other = std::get_if<running::FrameEvent>(&event->what)) frame = other->in_force;
-      check.take(simulation::TimedEvent{.event = *event, .start = record.start, .move = {}});
+      check.take(timing::TimedEvent{.event = *event, .start = record.start, .move = {}});
     }
   };
   for (const RecordedPiece& piece : record.pieces) {

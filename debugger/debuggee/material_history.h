@@ -126,7 +126,7 @@ class MaterialHistory {
 
   const Debuggee& debuggee_;
   const verification::Scene& scene_;
-  const simulation::TimedMachine machine_;
+  const timing::TimedMachine machine_;
   CopyLimits limits_;
   StatePointer begin_;  ///< The blank, before anything has been run by hand.
   Copies copies_;

@@ -48,7 +48,7 @@ void Surroundings::forget_from(std::uint64_t blocks) {
 }
 
 const BodyPairs& Surroundings::bodies_with(const execution::ToolCode& tool, bool is_place_known,
-                                           const simulation::TimedMachine& machine) const {
+                                           const timing::TimedMachine& machine) const {
   const std::pair key(tool, is_place_known);
   const auto known = bodies_.find(key);
   if (known != bodies_.end()) return known->second;
@@ -197,7 +197,7 @@ class BlockPass {
 
   const Surroundings& surroundings_;
   const Surroundings::BlockSearch& wanted_;
-  const simulation::TimedMachine& machine_;
+  const timing::TimedMachine& machine_;
   execution::ToolCode tool_;
   bool is_place_known_;
   std::optional<Stretch> stretch_before_;

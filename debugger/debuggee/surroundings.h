@@ -89,7 +89,7 @@ class Surroundings {
   const geometry::Vec3& origin() const;
   const std::optional<removal::Workpiece>& workpiece() const;
   const verification::BodyPairs& bodies_with(const execution::ToolCode& tool, bool is_place_known,
-                                             const simulation::TimedMachine& machine) const;
+                                             const timing::TimedMachine& machine) const;
 
   const Debuggee& debuggee_;
   LoadScene load_;

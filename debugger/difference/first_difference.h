@@ -16,7 +16,7 @@ struct ReferenceProgram {
   std::string name;  ///< For people: that of its file.
   std::string text;
   running::RunOptions options;
-  simulation::TimedMachine machine;
+  timing::TimedMachine machine;
 };
 
 /// What a comparison has shown.
@@ -31,7 +31,7 @@ struct FirstDifference {
 struct ReferenceComparison {
   std::shared_ptr<const debuggee::Debuggee> debuggee;
   running::RunOptions options;
-  simulation::TimedMachine machine;
+  timing::TimedMachine machine;
   ReferenceProgram reference;
   dialect::Language language = dialect::Language::English;
 

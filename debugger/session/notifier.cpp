@@ -57,7 +57,7 @@ static Json pose_json(const geometry::Pose& pose) {
 /// Null where no tool is mounted.
 Json Notifier::tool_json() const {
   const execution::ToolCode& tool = state_.debuggee->present().run().state.tool;
-  const simulation::TimedMachine& machine = state_.debuggee->machine();
+  const timing::TimedMachine& machine = state_.debuggee->machine();
   if (tool == execution::ToolCode{}) return nullptr;
   const auto radius = machine.tool_radii.find(tool);
   return {{"name", running::tool_name(tool)},

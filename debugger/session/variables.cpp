@@ -168,7 +168,7 @@ class Listing {
     const execution::ToolCode& tool = moment_.state.tool;
     if (tool == execution::ToolCode{}) return add("T", in_language(kNone));
     for (const std::string_view name : {"T", "HEAD", "HOLDER", "TOOL"}) add_quantity(name);
-    const simulation::TimedMachine& machine = session_.debuggee().machine();
+    const timing::TimedMachine& machine = session_.debuggee().machine();
     const configuration::Tool* const known = session_.configuration().machine.find_tool(tool);
     if (known && !known->name.empty()) add(in_language(kName), text::printable(known->name));
     add(in_language(kLength), show(machine.tool_length(tool)), "mm");

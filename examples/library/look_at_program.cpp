@@ -32,7 +32,7 @@ int main(int count, char** arguments) {
   }
 
   double end = 0;
-  const auto listen = [&](const simulation::TimedEvent& event) { end = event.start + event.duration; };
+  const auto listen = [&](const timing::TimedEvent& event) { end = event.start + event.duration; };
   const running::RunResult run =
       simulation::run_timed(text, {.setup = machine.setup}, machine.timed, {.event = listen});
   fmt::print("{} blocks, {:.1f} s\n", run.blocks, end);

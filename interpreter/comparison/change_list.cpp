@@ -37,7 +37,7 @@ std::string side_of(const MachineAction& motion) {
 }
 
 /// As programs write it.
-std::string written(const simulation::Timing::SpindleMotion& spindle) {
+std::string written(const timing::SpindleMotion& spindle) {
   return spindle.function == 5 ? "M05" : fmt::format("S{} M{:02}", shown(spindle.speed), spindle.function);
 }
 

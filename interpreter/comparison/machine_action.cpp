@@ -6,7 +6,7 @@
 
 #include "interpreter/kinematics/element.h"
 #include "interpreter/kinematics/independent_rapid.h"
-#include "interpreter/simulation/spindle_turn.h"
+#include "interpreter/timing/spindle_turn.h"
 
 namespace isocnc::comparison {
 
@@ -18,7 +18,7 @@ namespace {
 /// Turns the events of a run into actions.
 class ActionRecorder {
  public:
-  ActionRecorder(std::string_view text, const simulation::TimedMachine& machine) : machine_(machine) {
+  ActionRecorder(std::string_view text, const timing::TimedMachine& machine) : machine_(machine) {
     // Most lines are one action. A list that grows is copied, and a system may be slow to find the memory for copies.
     static constexpr std::ptrdiff_t kMostAtOnce = 2'000'000;
     run_.actions.reserve(static_cast<std::size_t>(std::min(std::count(text.begin(), text.end(), '\n'), kMostAtOnce)) +
@@ -29,7 +29,7 @@ class ActionRecorder {
   }
 
   /// `made` is the motion of the event; null if it has none.
-  void take(const simulation::TimedEvent& timed, kinematics::MadeMove* made) {
+  void take(const timing::TimedEvent& timed, kinematics::MadeMove* made) {
     line_ = timed.event.line;
     start_ = timed.start;
     made_ = made;
@@ -37,7 +37,7 @@ class ActionRecorder {
     const double seconds = timed.duration + timed.wait;
     (tool_ == MachineAction::kNone ? run_.seconds_without_tool : run_.tools[tool_].seconds) += seconds;
     run_.seconds = std::max(run_.seconds, timed.start + seconds);
-    const simulation::Timing::SpindleMotion turned = simulation::spindle_after(timed.event, spindle_, spindle_speed_);
+    const timing::SpindleMotion turned = timing::spindle_after(timed.event, spindle_, spindle_speed_);
     if (turned == spindle_) return;
     spindle_ = turned;
     waiting_speed_ = turned.speed;
@@ -71,7 +71,7 @@ class ActionRecorder {
     return action;
   }
 
-  void add(const running::MoveEvent& event, const simulation::TimedEvent& timed) {
+  void add(const running::MoveEvent& event, const timing::TimedEvent& timed) {
     const kinematics::Move& move = *timed.move;
     const double turn = std::hypot(move.to.b - move.from.b, move.to.c - move.from.c);
     const bool goes = move.is_arc ? move.sweep_deg != 0 : turn + (move.to.tip - move.from.tip).norm() > kNoMotion;
@@ -125,46 +125,46 @@ class ActionRecorder {
     for (std::size_t axis = 0; axis < 3; ++axis) run_.extents[axis].include(travel.extents[axis]);
   }
 
-  void add(const running::DwellEvent& dwell, const simulation::TimedEvent&) {
+  void add(const running::DwellEvent& dwell, const timing::TimedEvent&) {
     if (dwell.seconds > 0) append(ActionKind::Dwell).value = dwell.seconds;
   }
-  void add(const running::SpindleSpeedEvent& given, const simulation::TimedEvent&) {
+  void add(const running::SpindleSpeedEvent& given, const timing::TimedEvent&) {
     spindle_speed_ = given.speed;
     speed_line_ = line_;
   }
-  void add(const running::FunctionEvent& function, const simulation::TimedEvent&) {
+  void add(const running::FunctionEvent& function, const timing::TimedEvent&) {
     if (!dialect::is_user_function(function.number)) return;  // The spindle's, which counts when it turns otherwise.
     append(ActionKind::Function).number = static_cast<std::uint32_t>(run_.functions.size());
     run_.functions.push_back(function);
   }
-  void add(const running::ToolEvent& event, const simulation::TimedEvent&) {
+  void add(const running::ToolEvent& event, const timing::TimedEvent&) {
     const auto known = std::find_if(run_.tools.begin(), run_.tools.end(),
                                     [&](const ActionTool& tool) { return tool.code == event.tool; });
     tool_ = static_cast<std::uint32_t>(known - run_.tools.begin());
     if (known == run_.tools.end()) run_.tools.push_back({event.tool, machine_.tool_length(event.tool)});
     append(ActionKind::Tool);
   }
-  void add(const running::FrameEvent& frame, const simulation::TimedEvent&) {
+  void add(const running::FrameEvent& frame, const timing::TimedEvent&) {
     ActionFrame next{line_, frame.in_force, frame.workpiece_origin, run_.frames.back().zero_line};
     if (frame.workpiece_origin != run_.frames.back().zero) next.zero_line = line_;
     run_.frames.push_back(next);
   }
-  void add(const running::JumpEvent& jump, const simulation::TimedEvent&) {
+  void add(const running::JumpEvent& jump, const timing::TimedEvent&) {
     run_.decisions.push_back({line_, jump.taken, run_.actions.size()});
   }
-  void add(const running::SignalEvent& signal, const simulation::TimedEvent&) {
+  void add(const running::SignalEvent& signal, const timing::TimedEvent&) {
     append(ActionKind::Signal).number = signal.code->number;
   }
-  void add(const running::ExactStopEvent&, const simulation::TimedEvent&) {}
-  void add(const running::EndEvent&, const simulation::TimedEvent&) {}
+  void add(const running::ExactStopEvent&, const timing::TimedEvent&) {}
+  void add(const running::EndEvent&, const timing::TimedEvent&) {}
 
-  const simulation::TimedMachine& machine_;
+  const timing::TimedMachine& machine_;
   RecordedRun run_;
   std::size_t line_ = 0;
   double start_ = 0;  ///< Of the event, seconds.
   kinematics::MadeMove* made_ = nullptr;
   std::uint32_t tool_ = MachineAction::kNone;
-  simulation::Timing::SpindleMotion spindle_;
+  timing::SpindleMotion spindle_;
   double spindle_speed_ = 0;    ///< The last S.
   std::size_t speed_line_ = 0;  ///< Its line.
   double waiting_speed_ = 0;    ///< The last S that counts: of the spindle as it turns, or one that waits.
@@ -177,17 +177,17 @@ std::string_view error_of(const RecordedRun& run) {
   return number == 0 ? std::string_view() : dialect::definition(static_cast<dialect::DiagnosticId>(number - 1)).code;
 }
 
-RecordedRun record(std::string_view text, running::RunOptions options, const simulation::TimedMachine& machine,
+RecordedRun record(std::string_view text, running::RunOptions options, const timing::TimedMachine& machine,
                    const RecordingListeners& listeners) {
   ActionRecorder recorder(text, machine);
-  simulation::Timing timing(machine, {.event =
-                                          [&](const simulation::TimedEvent& timed) {
-                                            std::optional<kinematics::MadeMove> made;
-                                            if (timed.move) made.emplace(machine.motion, *timed.move);
-                                            recorder.take(timed, made ? &*made : nullptr);
-                                            if (listeners.made) listeners.made(timed, made ? &*made : nullptr);
-                                          },
-                                      .stretch = listeners.stretch});
+  timing::Timing timing(machine, {.event =
+                                      [&](const timing::TimedEvent& timed) {
+                                        std::optional<kinematics::MadeMove> made;
+                                        if (timed.move) made.emplace(machine.motion, *timed.move);
+                                        recorder.take(timed, made ? &*made : nullptr);
+                                        if (listeners.made) listeners.made(timed, made ? &*made : nullptr);
+                                      },
+                                  .stretch = listeners.stretch});
   simulation::Compensation compensation(machine);
   const simulation::Compensation::Listeners compensated{
       .event = [&](const running::Event& event) { timing.take(event); },

@@ -14,7 +14,7 @@
 #include "interpreter/kinematics/made_move.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/compensation.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::comparison {
 
@@ -69,7 +69,7 @@ struct ActionTool {
 
 /// How the spindle turns for a while.
 struct ActionSpindle {
-  simulation::Timing::SpindleMotion motion;
+  timing::SpindleMotion motion;
   std::optional<std::size_t> cause;  ///< Index of the action that has made it turn so; none for that of the start.
 };
 
@@ -114,13 +114,13 @@ struct RecordingListeners {
   std::function<void(const running::Event&)> programmed;  ///< Events as programmed.
   std::function<void(const simulation::RunWarning&)> warning;
   /// Events as the machine makes them; a motion is asked once for all.
-  std::function<void(const simulation::TimedEvent&, kinematics::MadeMove*)> made;
-  std::function<void(const motion::Stretch&, const simulation::TimedEvent&)> stretch;
+  std::function<void(const timing::TimedEvent&, kinematics::MadeMove*)> made;
+  std::function<void(const motion::Stretch&, const timing::TimedEvent&)> stretch;
   std::function<void(const running::RunResult&)> ended;
 };
 
 /// Runs a program on the machine, with compensation and times. `options.before_block` is replaced.
-RecordedRun record(std::string_view text, running::RunOptions options, const simulation::TimedMachine& machine,
+RecordedRun record(std::string_view text, running::RunOptions options, const timing::TimedMachine& machine,
                    const RecordingListeners& listeners = {});
 
 }  // namespace isocnc::comparison

@@ -17,7 +17,7 @@
 #include "interpreter/dialect/lint_thresholds.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/geometry/vectors.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::configuration {
 
@@ -132,7 +132,7 @@ struct MachineConfiguration {
   execution::Setup setup;  ///< Tools and functions are copies of the members below.
   /// The machine's motion. Travel, rapids and kind are copies from `setup` and the members below, as are tools and
   /// functions.
-  simulation::TimedMachine timed;
+  timing::TimedMachine timed;
   std::array<double, execution::kAxisCount> rapids = default_rapids();  ///< mm/min, degrees/min.
   std::string kind = "head";                                            ///< `three-axis`, `head`, `table`.
   std::string rapid_motion = "interpolated";                            ///< Or `independent`.

@@ -319,16 +319,16 @@ static void add_times(std::vector<Key>& keys) {
   add("toolChange",
       {"An M06, from rest to rest; also of the tool that is mounted.",
        "Una M06, da fermo a fermo; anche quella dell'utensile già montato."},
-      &simulation::Durations::tool_change);
+      &timing::Durations::tool_change);
   add("spindle",
       {"An M03, M04 or M05, until the spindle has its speed or stands; one that changes neither takes no time.",
        "Una M03, M04 o M05, finché il mandrino è a regime o fermo; quella che non cambia né verso né giri non prende "
        "tempo."},
-      &simulation::Durations::spindle);
+      &timing::Durations::spindle);
   add("channel",
       {"A G09 in G48, until the interpolation channel is full again (I.3.8).",
        "Una G09 in G48, finché il canale di interpolazione è di nuovo pieno (I.3.8)."},
-      &simulation::Durations::channel);
+      &timing::Durations::channel);
 }
 
 static std::optional<Objection> tool_twice(const Configuration& configuration, ElementIndex index) {

@@ -84,8 +84,8 @@ CutJob survey(std::string_view text, const OutlineOptions& options) {
   tools = &path;
   job.run = simulation::run_timed(
       text, options.run, options.machine,
-      {.event = [&](const simulation::TimedEvent& timed) { path.add(timed); },
-       .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) { path.add(stretch); }});
+      {.event = [&](const timing::TimedEvent& timed) { path.add(timed); },
+       .stretch = [&](const motion::Stretch& stretch, const timing::TimedEvent&) { path.add(stretch); }});
   return job;
 }
 

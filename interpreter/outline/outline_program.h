@@ -8,7 +8,7 @@
 
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::outline {
 
@@ -25,7 +25,7 @@ std::optional<OutlineShape> outline_shape(std::string_view name);
 /// Lengths in mm, feeds in mm/min.
 struct OutlineOptions {
   running::RunOptions run;
-  simulation::TimedMachine machine;  ///< Its radii widen the outline; where the radius of a tool is not known it is 0.
+  timing::TimedMachine machine;  ///< Its radii widen the outline; where the radius of a tool is not known it is 0.
   OutlineShape shape = OutlineShape::Rectangle;
   /// Z of the first workpiece frame at which the tip goes around. Without it: 5 mm above the highest point of all feed
   /// moves, or the machine's value (Setup::clearance), whichever is higher.

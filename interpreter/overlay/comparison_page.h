@@ -8,7 +8,7 @@
 #include "interpreter/comparison/comparison_text.h"
 #include "interpreter/overlay/aligned_lines.h"
 #include "interpreter/plot/picture.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::overlay {
 
@@ -25,7 +25,7 @@ std::string alignment_bytes(const std::vector<AlignedLines>& lines);
 struct ShownProgram {
   const plot::PlotSubject& subject;
   const running::RunOptions& options;
-  const simulation::TimedMachine& machine;
+  const timing::TimedMachine& machine;
 };
 
 /// Both runs, and how they are shown.

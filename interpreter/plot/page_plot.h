@@ -28,7 +28,7 @@ class PageFile {
 class PagePlot final : public Picture {
  public:
   /// Both must outlive it.
-  PagePlot(const PlotSubject& subject, const simulation::TimedMachine& machine)
+  PagePlot(const PlotSubject& subject, const timing::TimedMachine& machine)
       : subject_(subject), recording_(subject, machine) {}
 
   void add(const ToolpathStep& step) override { recording_.add(step); }

@@ -24,7 +24,7 @@ enum StepBits : std::uint8_t {
   kPointCount = 0x40,  ///< Number of points, if not one.
 };
 
-PathRecording::PathRecording(const PlotSubject& subject, const simulation::TimedMachine& machine)
+PathRecording::PathRecording(const PlotSubject& subject, const timing::TimedMachine& machine)
     : subject_(subject), machine_(machine), home_(place({.pose = subject.home})), last_(home_) {}
 
 PathRecording::RecordedPoint PathRecording::place(const ToolpathPoint& point) {
@@ -126,13 +126,13 @@ std::string PathRecording::facts(const Toolpath& path, const PlottedRun& run) co
 }
 
 RecordedPath record_path(std::string_view program, const PlotSubject& subject, const running::RunOptions& options,
-                         const simulation::TimedMachine& machine) {
+                         const timing::TimedMachine& machine) {
   PathRecording recording(subject, machine);
   Toolpath path(machine, subject.home, [&](const ToolpathStep& step) { recording.add(step); });
   const running::RunResult result = simulation::run_timed(
       program, options, machine,
-      {.event = [&](const simulation::TimedEvent& timed) { path.add(timed); },
-       .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) { path.add(stretch); }});
+      {.event = [&](const timing::TimedEvent& timed) { path.add(timed); },
+       .stretch = [&](const motion::Stretch& stretch, const timing::TimedEvent&) { path.add(stretch); }});
   return {.facts = recording.facts(path, {result, {}, nullptr}),
           .steps = std::string(recording.steps()),
           .points = std::string(recording.points()),

@@ -16,7 +16,7 @@ namespace isocnc::plot {
 class PathRecording {
  public:
   /// Both must outlive this object. The program and page of the subject are not used.
-  PathRecording(const PlotSubject& subject, const simulation::TimedMachine& machine);
+  PathRecording(const PlotSubject& subject, const timing::TimedMachine& machine);
 
   void add(const ToolpathStep& step);
 
@@ -39,7 +39,7 @@ class PathRecording {
   void add(const RecordedPoint& place, double time);
 
   const PlotSubject& subject_;
-  const simulation::TimedMachine& machine_;
+  const timing::TimedMachine& machine_;
   PackedBytes steps_;
   PackedBytes points_;
   PackedBytes turns_;
@@ -64,6 +64,6 @@ struct RecordedPath {
 
 /// Runs a program for its path. What is recorded ends where `options.stop` ends the run.
 RecordedPath record_path(std::string_view program, const PlotSubject& subject, const running::RunOptions& options,
-                         const simulation::TimedMachine& machine);
+                         const timing::TimedMachine& machine);
 
 }  // namespace isocnc::plot

@@ -18,12 +18,12 @@ std::optional<PlotFormat> plot_format(std::string_view file_name) {
 }
 
 static std::unique_ptr<Picture> picture(PlotFormat format, const PlotSubject& subject,
-                                        const simulation::TimedMachine& machine) {
+                                        const timing::TimedMachine& machine) {
   if (format == PlotFormat::Html) return std::make_unique<PagePlot>(subject, machine);
   return std::make_unique<SvgPlot>(subject);
 }
 
-Plot::Plot(PlotFormat format, const PlotSubject& subject, const simulation::TimedMachine& machine)
+Plot::Plot(PlotFormat format, const PlotSubject& subject, const timing::TimedMachine& machine)
     : picture_(picture(format, subject, machine)),
       path_(machine, subject.home, [this](const ToolpathStep& step) { picture_->add(step); }) {}
 

@@ -22,10 +22,10 @@ std::optional<PlotFormat> plot_format(std::string_view file_name);
 /// Receives the events of a run and draws the path of the tool tip.
 class Plot {
  public:
-  Plot(PlotFormat format, const PlotSubject& subject, const simulation::TimedMachine& machine);
+  Plot(PlotFormat format, const PlotSubject& subject, const timing::TimedMachine& machine);
 
   void add(const motion::Stretch& stretch) { path_.add(stretch); }
-  void add(const simulation::TimedEvent& timed) { path_.add(timed); }
+  void add(const timing::TimedEvent& timed) { path_.add(timed); }
   void write(system::OutputFile& output, const PlottedRun& run) { picture_->write(output, path_, run); }
 
  private:

@@ -19,7 +19,7 @@ static constexpr double kPartDeg = 10;
 static constexpr int kMaxHalvings = 10;
 static constexpr int kMaxParts = 1'000;
 
-Toolpath::Toolpath(const simulation::TimedMachine& machine, const Pose& home,
+Toolpath::Toolpath(const timing::TimedMachine& machine, const Pose& home,
                    std::function<void(const ToolpathStep&)> on_step)
     : machine_(machine), on_step_(std::move(on_step)), points_{{.pose = home}} {
   tolerance_.across = machine.motion.chord_tolerance;
@@ -146,7 +146,7 @@ static StepKind kind_of(execution::MoveKind kind) {
   return kKinds[static_cast<std::size_t>(kind)];
 }
 
-void Toolpath::add(const simulation::TimedEvent& timed) {
+void Toolpath::add(const timing::TimedEvent& timed) {
   geometry::Pose end = points_.front().pose;
   if (const auto* const tool = std::get_if<running::ToolEvent>(&timed.event.what)) end = mount(tool->tool);
   if (const auto* const frame = std::get_if<running::FrameEvent>(&timed.event.what))
@@ -166,7 +166,7 @@ void Toolpath::add(const simulation::TimedEvent& timed) {
 }
 
 /// Ends a step with the points since the last one.
-void Toolpath::add_step(const simulation::TimedEvent& timed, StepKind kind, double feed) {
+void Toolpath::add_step(const timing::TimedEvent& timed, StepKind kind, double feed) {
   keep_last();
   if (points_.size() == 1) points_.front().time = timed.start;
   on_step_({.line = timed.event.line, .kind = kind, .tool = tool_, .feed = feed, .points = points_});

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::plot {
 
@@ -48,11 +48,11 @@ struct ToolpathFrame {
 class Toolpath {
  public:
   /// `home` is the machine's position at the start. `on_step` is called with the steps in their order.
-  Toolpath(const simulation::TimedMachine& machine, const geometry::Pose& home,
+  Toolpath(const timing::TimedMachine& machine, const geometry::Pose& home,
            std::function<void(const ToolpathStep&)> on_step);
 
   void add(const motion::Stretch& stretch);
-  void add(const simulation::TimedEvent& timed);
+  void add(const timing::TimedEvent& timed);
 
   /// The first entry means no tool; the others are in the order of their first use.
   const std::vector<std::optional<execution::ToolCode>>& tools() const { return tools_; }
@@ -70,9 +70,9 @@ class Toolpath {
   void keep_last();
   geometry::Pose mount(execution::ToolCode tool);
   void add_frame(const running::FrameEvent& event, std::size_t line);
-  void add_step(const simulation::TimedEvent& timed, StepKind kind, double feed);
+  void add_step(const timing::TimedEvent& timed, StepKind kind, double feed);
 
-  const simulation::TimedMachine& machine_;
+  const timing::TimedMachine& machine_;
   std::function<void(const ToolpathStep&)> on_step_;
   ToolpathTolerance tolerance_;
   std::vector<ToolpathPoint> points_;   ///< Points of the current step; the first is its start.

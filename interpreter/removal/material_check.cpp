@@ -7,7 +7,7 @@
 #include "interpreter/kinematics/numbers.h"
 #include "interpreter/removal/left_material.h"
 #include "interpreter/removal/loose_pieces.h"
-#include "interpreter/simulation/spindle_turn.h"
+#include "interpreter/timing/spindle_turn.h"
 
 namespace isocnc::removal {
 
@@ -29,11 +29,11 @@ static constexpr double kMaxMomentsApart = 10;
 
 /// What a cut may leave of what its program says, mm: at a rounded corner as much more as the corner strays, be it at
 /// the end of a slot or at the bottom of a hole. Later motions come as near as the program says.
-static double skin_of(double spacing, const simulation::TimedMachine& machine) {
+static double skin_of(double spacing, const timing::TimedMachine& machine) {
   return rim_of(spacing) + machine.motion.corner_tolerance;
 }
 
-MaterialCheck::MaterialCheck(Workpiece workpiece, const simulation::TimedMachine& machine, stock::Workers workers)
+MaterialCheck::MaterialCheck(Workpiece workpiece, const timing::TimedMachine& machine, stock::Workers workers)
     : workpiece_(std::move(workpiece)),
       machine_(machine),
       workers_(std::move(workers)),
@@ -83,7 +83,7 @@ void MaterialCheck::stand(const running::Event& event, double time, const geomet
                       .is_standing = true});
 }
 
-MotionFacts::MotionFacts(const simulation::TimedEvent& event)
+MotionFacts::MotionFacts(const timing::TimedEvent& event)
     : line(event.event.line),
       is_in_inches(event.event.is_in_inches),
       is_at_known_place(event.is_at_known_place()),
@@ -102,12 +102,12 @@ void MaterialCheck::take_end(const MotionFacts& motion, double time) {
   last_time_ = time;
 }
 
-void MaterialCheck::take(const simulation::TimedEvent& event) {
+void MaterialCheck::take(const timing::TimedEvent& event) {
   if (const auto* const speed = std::get_if<running::SpindleSpeedEvent>(&event.event.what))
     spindle_speed_ = speed->speed;
   const auto before = spindle_;
   take_end(MotionFacts(event), event.start + event.duration);
-  spindle_ = simulation::spindle_after(event.event, spindle_, spindle_speed_);
+  spindle_ = timing::spindle_after(event.event, spindle_, spindle_speed_);
   if (before.function != 5 && spindle_.function == 5) spindle_stopped_by_ = event.event.line;
 }
 

@@ -14,14 +14,14 @@
 #include "interpreter/removal/motion_sweeps.h"
 #include "interpreter/removal/tool_forms.h"
 #include "interpreter/simulation/run_findings.h"
-#include "interpreter/simulation/timing.h"
 #include "interpreter/stock/stock.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::removal {
 
 /// What of the event of a motion matters for its stretches.
 struct MotionFacts {
-  explicit MotionFacts(const simulation::TimedEvent& event);
+  explicit MotionFacts(const timing::TimedEvent& event);
 
   std::size_t line = 0;
   bool is_in_inches = false;
@@ -37,7 +37,7 @@ struct MotionFacts {
 class MaterialCheck {
  public:
   /// Refers to the machine.
-  MaterialCheck(Workpiece workpiece, const simulation::TimedMachine& machine, stock::Workers workers = {});
+  MaterialCheck(Workpiece workpiece, const timing::TimedMachine& machine, stock::Workers workers = {});
 
   /// Called with the stock of a moment, and its time; returns the time of the next moment, seconds. Nothing is asked
   /// where nothing has been cut.
@@ -56,7 +56,7 @@ class MaterialCheck {
   void take_part(const motion::Stretch& stretch, const MotionFacts& motion, const geometry::Frame& frame, double from,
                  double to);
   /// Takes an event that has been made.
-  void take(const simulation::TimedEvent& event);
+  void take(const timing::TimedEvent& event);
   /// Takes the end of a motion, seconds: what there is to know of the event of one between known places.
   void take_end(const MotionFacts& motion, double time);
   /// Ends the run.
@@ -161,7 +161,7 @@ class MaterialCheck {
   geometry::Vec3 in_machine(const geometry::Vec3& point) const { return point + workpiece_.origin; }
 
   Workpiece workpiece_;
-  const simulation::TimedMachine& machine_;
+  const timing::TimedMachine& machine_;
   stock::Workers workers_;
   stock::Stock stock_;
   double blank_volume_ = 0;
@@ -171,7 +171,7 @@ class MaterialCheck {
   execution::ToolCode code_;
   std::optional<ToolForms> forms_;
   std::optional<std::size_t> tool_;  ///< Index into by_tool_, once the mounted tool has removed something.
-  simulation::Timing::SpindleMotion spindle_;
+  timing::SpindleMotion spindle_;
   double spindle_speed_ = 0;
   std::optional<std::size_t> spindle_stopped_by_;
   std::size_t last_line_ = 0;  ///< Of the events.

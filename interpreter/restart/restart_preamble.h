@@ -6,15 +6,15 @@
 
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/restart/restart_survey.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::restart {
 
 /// Options of a restart program. Lengths in mm, feeds in mm/min.
 struct RestartOptions {
   running::RunOptions run;
-  simulation::TimedMachine machine;  ///< The approach keeps to its travel; its tools give the position of the tip.
-  std::size_t line = 0;              ///< From 0.
+  timing::TimedMachine machine;  ///< The approach keeps to its travel; its tools give the position of the tip.
+  std::size_t line = 0;          ///< From 0.
   /// The line before which the restart program ends, by an M02; from 0. Without it, it ends like the original.
   std::optional<std::size_t> end;
   /// Z of the frame in force at which the tool changes from rapid to feed on its way down. Without it: the machine's

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "interpreter/geometry/arc.h"
-#include "interpreter/simulation/spindle_turn.h"
+#include "interpreter/timing/spindle_turn.h"
 
 namespace isocnc::restart {
 
@@ -64,7 +64,7 @@ void TipLog::add(const running::FrameEvent& frame, const geometry::Vec3& tip) {
 }
 
 RestartSurvey::RestartSurvey(std::string_view text, const running::RunOptions& options,
-                             const simulation::TimedMachine& machine, std::size_t line)
+                             const timing::TimedMachine& machine, std::size_t line)
     : line_(line),
       known_radii_(machine.tool_radii),
       machine_(machine),
@@ -84,7 +84,7 @@ RestartSurvey::RestartSurvey(std::string_view text, const running::RunOptions& o
 void RestartSurvey::take(const running::Event& event) {
   follow(event);
   if (const auto* const speed = std::get_if<running::SpindleSpeedEvent>(&event.what)) last_speed_ = speed->speed;
-  spindle_ = simulation::spindle_after(event, spindle_, last_speed_);
+  spindle_ = timing::spindle_after(event, spindle_, last_speed_);
   now_.turning_speed = spindle_.speed;
   if (const auto* const jump = std::get_if<running::JumpEvent>(&event.what); jump != nullptr && jump->taken)
     jumps_.emplace_back(event.line, jump->target_line);

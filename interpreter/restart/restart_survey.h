@@ -11,7 +11,7 @@
 
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/machine_course.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::restart {
 
@@ -92,7 +92,7 @@ struct RestartPoint {
 class RestartSurvey {
  public:
   /// `line` (from 0) is the line of point().
-  RestartSurvey(std::string_view text, const running::RunOptions& options, const simulation::TimedMachine& machine,
+  RestartSurvey(std::string_view text, const running::RunOptions& options, const timing::TimedMachine& machine,
                 std::size_t line);
   RestartSurvey(const RestartSurvey&) = delete;
   RestartSurvey& operator=(const RestartSurvey&) = delete;
@@ -142,13 +142,13 @@ class RestartSurvey {
 
   const std::size_t line_;
   const std::map<execution::ToolCode, double> known_radii_;
-  simulation::TimedMachine machine_;
+  timing::TimedMachine machine_;
   simulation::MachineCourse course_;
   TipLog log_;
   const simulation::MachineCourse::Listeners to_log_;
   running::RunResult run_;
   RestartPoint now_;  // Facts before the line that the run has reached.
-  simulation::Timing::SpindleMotion spindle_;
+  timing::SpindleMotion spindle_;
   double last_speed_ = 0;  // The last S.
   RestartPoint point_;
   std::vector<std::uint16_t> traits_;

@@ -9,10 +9,10 @@
 #include "interpreter/sheet/path_view.h"
 #include "interpreter/sheet/sheet.h"
 #include "interpreter/sheet/tool_picture.h"
-#include "interpreter/simulation/spindle_turn.h"
 #include "interpreter/simulation/timed_run.h"
 #include "interpreter/system/paths.h"
 #include "interpreter/text/sha256.h"
+#include "interpreter/timing/spindle_turn.h"
 #include "interpreter/verification/verifier.h"
 
 namespace isocnc::sheet {
@@ -48,10 +48,10 @@ class FactCollector {
  public:
   explicit FactCollector(const SheetSubject& subject) : subject_(subject) {}
 
-  void take(const simulation::TimedEvent& timed) {
+  void take(const timing::TimedEvent& timed) {
     const double duration = timed.duration + timed.wait;
     seconds_ = std::max(seconds_, timed.start + duration);
-    spindle_ = simulation::spindle_after(timed.event, spindle_, speed_);
+    spindle_ = timing::spindle_after(timed.event, spindle_, speed_);
     std::visit([&](const auto& what) { add(what, timed); }, timed.event.what);
     if (tool_ != kNone) sheet_.tools[tool_].seconds += duration;
   }
@@ -81,17 +81,17 @@ class FactCollector {
   };
 
   template <class What>
-  void add(const What&, const simulation::TimedEvent&) {}
-  void add(const running::SpindleSpeedEvent& given, const simulation::TimedEvent&) { speed_ = given.speed; }
-  void add(const running::FunctionEvent& function, const simulation::TimedEvent&) {
+  void add(const What&, const timing::TimedEvent&) {}
+  void add(const running::SpindleSpeedEvent& given, const timing::TimedEvent&) { speed_ = given.speed; }
+  void add(const running::FunctionEvent& function, const timing::TimedEvent&) {
     if (dialect::is_user_function(function.number)) ++calls_[function.number];
   }
-  void add(const running::FrameEvent& frame, const simulation::TimedEvent& timed) {
+  void add(const running::FrameEvent& frame, const timing::TimedEvent& timed) {
     frames_.take(frame, timed.event.line);
     origin_ = frame.workpiece_origin;
     has_frame_ = true;
   }
-  void add(const running::ToolEvent& event, const simulation::TimedEvent&) {
+  void add(const running::ToolEvent& event, const timing::TimedEvent&) {
     const auto known = std::find_if(sheet_.tools.begin(), sheet_.tools.end(),
                                     [&](const SheetTool& each) { return each.code == event.tool; });
     tool_ = static_cast<std::size_t>(known - sheet_.tools.begin());
@@ -101,7 +101,7 @@ class FactCollector {
     }
     ++sheet_.tools[tool_].uses;
   }
-  void add(const running::MoveEvent& event, const simulation::TimedEvent& timed) {
+  void add(const running::MoveEvent& event, const timing::TimedEvent& timed) {
     const Room extents = kinematics::tip_travel(subject_.machine.timed.motion, *timed.move).extents;
     frames_.take(subject_.machine.timed.motion, *timed.move, extents);
     const bool is_rapid = event.kind == execution::MoveKind::Rapid;
@@ -151,7 +151,7 @@ class FactCollector {
   std::size_t tool_ = kNone;
   summary::FrameLog frames_;
   Vec3 origin_ = Vec3::Zero();  ///< Of the workpiece frame in force; machine frame.
-  simulation::Timing::SpindleMotion spindle_;
+  timing::SpindleMotion spindle_;
   double speed_ = 0;  ///< The last S.
   double seconds_ = 0;
   std::map<int, std::size_t> calls_;
@@ -277,8 +277,8 @@ void draw(const SheetSubject& subject, Room room, const Vec3& origin, Sheet& she
   });
   simulation::run_timed(
       subject.text, subject.run, subject.machine.timed,
-      {.event = [&](const simulation::TimedEvent& timed) { path.add(timed); },
-       .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) { path.add(stretch); }});
+      {.event = [&](const timing::TimedEvent& timed) { path.add(timed); },
+       .stretch = [&](const motion::Stretch& stretch, const timing::TimedEvent&) { path.add(stretch); }});
   sheet.from_above = above.finish();
   sheet.from_front = front.finish();
 }
@@ -301,7 +301,7 @@ Sheet survey(const SheetSubject& subject) {
   const running::RunResult result =
       simulation::run_timed(subject.text, subject.run, subject.machine.timed,
                             {.event =
-                                 [&](const simulation::TimedEvent& timed) {
+                                 [&](const timing::TimedEvent& timed) {
                                    facts.take(timed);
                                    const auto* const frame = std::get_if<running::FrameEvent>(&timed.event.what);
                                    if (frame != nullptr && !frame->face_mounted && !first_zero)
@@ -335,7 +335,7 @@ void add_path(Sheet& sheet, const SheetSubject& subject, const std::string& valu
   FactCollector facts(subject);
   const running::RunResult result =
       simulation::run_timed(subject.text, subject.run, subject.machine.timed,
-                            {.event = [&](const simulation::TimedEvent& timed) { facts.take(timed); }, .stretch = {}});
+                            {.event = [&](const timing::TimedEvent& timed) { facts.take(timed); }, .stretch = {}});
   Sheet path = facts.finish();
   sheet.paths.push_back({values, path.seconds, stop_of(result, subject.language)});
   for (SheetTool& tool : path.tools) {

@@ -30,7 +30,7 @@ bool Compensation::ContourPlane::is_upright(const running::MoveEvent& move) cons
 
 static bool turns(const running::MoveEvent& move) { return move.from.b != move.to.b || move.from.c != move.to.c; }
 
-Compensation::Compensation(const TimedMachine& machine, const execution::ToolCode& tool,
+Compensation::Compensation(const timing::TimedMachine& machine, const execution::ToolCode& tool,
                            const running::MoveEvent* beside)
     : machine_(&machine) {
   mount(tool);

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "interpreter/geometry/contour_offset.h"
-#include "interpreter/simulation/timing.h"
 #include "interpreter/syntax/finding.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::simulation {
 
@@ -39,10 +39,10 @@ class Compensation {
   };
 
   /// Keeps a reference to the machine, which knows the radii of the tools.
-  explicit Compensation(const TimedMachine& machine) : machine_(&machine) {}
+  explicit Compensation(const timing::TimedMachine& machine) : machine_(&machine) {}
   /// For a machine between two blocks, not under G41 or G42, with the given tool. `beside` is the last motion with
   /// compensation, if the tool is still offset from the program; otherwise null.
-  Compensation(const TimedMachine& machine, const execution::ToolCode& tool, const running::MoveEvent* beside);
+  Compensation(const timing::TimedMachine& machine, const execution::ToolCode& tool, const running::MoveEvent* beside);
 
   void take(const running::Event& event, const Listeners& listeners);
 
@@ -103,7 +103,7 @@ class Compensation {
   const ElementBlock& block_of(std::uint64_t element) const;
   std::uint64_t count(const running::Event& event);
 
-  const TimedMachine* machine_;
+  const timing::TimedMachine* machine_;
   double radius_ = 0;  // Radius of the mounted tool, mm.
   ContourPlane plane_;
   geometry::ContourOffset contour_{1};

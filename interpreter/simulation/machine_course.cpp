@@ -21,7 +21,7 @@ void MachineCourse::go(const running::Event& event, const Listeners& listeners) 
   } else if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what)) {
     position_.mount(machine_->motion.kinematics, machine_->length_of(tool->tool));
   } else if (const auto* const move = std::get_if<running::MoveEvent>(&event.what)) {
-    kinematics::Move made = planned_move(*move, *machine_, position_.tool_length());
+    kinematics::Move made = timing::planned_move(*move, *machine_, position_.tool_length());
     position_.follow(*move, made);
     listeners.move(event, made);
   }

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "interpreter/simulation/compensation.h"
-#include "interpreter/simulation/tip_position.h"
+#include "interpreter/timing/tip_position.h"
 
 namespace isocnc::simulation {
 
@@ -20,7 +20,7 @@ class MachineCourse {
   };
 
   /// Keeps a reference to the machine. `home` is the position of the spindle nose, machine frame.
-  MachineCourse(const TimedMachine& machine, const geometry::Pose& home)
+  MachineCourse(const timing::TimedMachine& machine, const geometry::Pose& home)
       : machine_(&machine), compensation_(machine), position_(home) {}
 
   /// Motions under compensation are reported once the contour after them is known.
@@ -30,7 +30,8 @@ class MachineCourse {
 
   /// The tip after the motions reported; machine frame.
   geometry::Pose tip() const { return position_.tip(); }
-  /// Whether the tip is there: not with a tool of known length after one of another, unknown length (TipPosition).
+  /// Whether the tip is there: not with a tool of known length after one of another, unknown length
+  /// (timing::TipPosition).
   bool is_tip_known() const { return !position_.unknown_offset() || !position_.is_length_known(); }
   /// Whether motions wait for the ones after them.
   bool holds_motions() const { return compensation_.holds_motions(); }
@@ -41,9 +42,9 @@ class MachineCourse {
   Compensation::Listeners compensated(const Listeners& listeners);
   void go(const running::Event& event, const Listeners& listeners);
 
-  const TimedMachine* machine_;
+  const timing::TimedMachine* machine_;
   Compensation compensation_;
-  TipPosition position_;
+  timing::TipPosition position_;
 };
 
 }  // namespace isocnc::simulation

@@ -7,7 +7,7 @@
 #include "interpreter/geometry/arc.h"
 #include "interpreter/kinematics/move.h"
 #include "interpreter/kinematics/numbers.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::simulation {
 
@@ -19,7 +19,7 @@ enum class Limit : std::uint8_t {
 };
 inline constexpr std::size_t kLimitCount = 3;
 
-inline double limit_of(Limit limit, const TimedMachine& machine) {
+inline double limit_of(Limit limit, const timing::TimedMachine& machine) {
   switch (limit) {
     case Limit::Feed:
       return kinematics::kSecondsPerMinute * machine.motion.feed_speed;
@@ -32,7 +32,7 @@ inline double limit_of(Limit limit, const TimedMachine& machine) {
 }
 
 /// Whether a value is above the limit by more than rounding.
-inline bool exceeds(Limit limit, double value, const TimedMachine& machine) {
+inline bool exceeds(Limit limit, double value, const timing::TimedMachine& machine) {
   constexpr double kRounding = 1 + 1e-9;
   return value > limit_of(limit, machine) * kRounding;
 }

@@ -16,7 +16,7 @@ namespace isocnc::simulation {
 using namespace dialect::literals;
 using execution::MoveKind;
 
-RunFindings::RunFindings(const TimedMachine& machine)
+RunFindings::RunFindings(const timing::TimedMachine& machine)
     : machine_(&machine),
       checks_travel_(
           std::any_of(machine.motion.axes.begin(), machine.motion.axes.end(),
@@ -205,7 +205,7 @@ RunOutcome RunFindings::outcome(std::string_view text, const running::RunResult&
   return outcome;
 }
 
-RunOutcome outcome_of_run(std::string_view text, running::RunOptions options, const TimedMachine& machine) {
+RunOutcome outcome_of_run(std::string_view text, running::RunOptions options, const timing::TimedMachine& machine) {
   RunFindings findings(machine);
   MachineCourse course(machine, machine.home);
   const MachineCourse::Listeners listeners{.move =

@@ -10,8 +10,8 @@
 #include "interpreter/kinematics/made_move.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/compensation.h"
-#include "interpreter/simulation/timing.h"
 #include "interpreter/syntax/finding.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::simulation {
 
@@ -72,7 +72,7 @@ struct RunOutcome {
 class RunFindings {
  public:
   /// Keeps a reference to the machine, which knows the limits.
-  explicit RunFindings(const TimedMachine& machine);
+  explicit RunFindings(const timing::TimedMachine& machine);
 
   /// Takes each block before it is executed.
   void take(const running::Block& block);
@@ -105,7 +105,7 @@ class RunFindings {
   void report(std::size_t line, dialect::DiagnosticId id, const std::array<double, dialect::kMaxArguments>& values,
               std::int32_t mistake = -1);
 
-  const TimedMachine* machine_;
+  const timing::TimedMachine* machine_;
   bool checks_travel_;
   bool checks_speeds_;
   FeedWord feed_;
@@ -123,6 +123,6 @@ syntax::Finding travel_finding(const kinematics::Overtravel& found, bool is_in_i
 syntax::Span motion_span(const syntax::LineTree& line);
 
 /// Runs a program on the machine, without its times, and returns what that shows. `options.before_block` is replaced.
-RunOutcome outcome_of_run(std::string_view text, running::RunOptions options, const TimedMachine& machine);
+RunOutcome outcome_of_run(std::string_view text, running::RunOptions options, const timing::TimedMachine& machine);
 
 }  // namespace isocnc::simulation

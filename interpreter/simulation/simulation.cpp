@@ -4,18 +4,19 @@
 #include <cmath>
 #include <limits>
 
-#include "interpreter/simulation/spindle_turn.h"
+#include "interpreter/timing/spindle_turn.h"
 
 namespace isocnc::simulation {
 
 static constexpr double kForever = std::numeric_limits<double>::infinity();
 
-Simulation::Simulation(const running::Program& program, const running::RunOptions& options, const TimedMachine& machine)
+Simulation::Simulation(const running::Program& program, const running::RunOptions& options,
+                       const timing::TimedMachine& machine)
     : machine_(&machine),
       present_(program, options),
       ahead_(present_),
       compensation_(machine),
-      timing_(machine, Timing::Listeners{}),
+      timing_(machine, timing::TimingListeners{}),
       begin_(machine.home) {
   present_.pass_empty_lines();
   ahead_ = present_;
@@ -35,15 +36,15 @@ static geometry::Pose programmed_pose(const execution::State& state) {
 }
 
 /// The last motion if it has ended at an offset contour, away from the programmed position; otherwise null.
-static const running::MoveEvent* motion_beside(const TimedEvent* last, const execution::State& state) {
+static const running::MoveEvent* motion_beside(const timing::TimedEvent* last, const execution::State& state) {
   if (last == nullptr) return nullptr;
   const auto& move = std::get<running::MoveEvent>(last->event.what);
   const bool is_beside = (move.to.tip - programmed_pose(state).tip).norm() > geometry::kEqualCoordinate;
   return is_beside && move.normal != geometry::Vec3::Zero() ? &move : nullptr;
 }
 
-static Timing::Standing standing(const Simulation& before, const running::Runner& run, const TimedMachine& machine,
-                                 const running::MoveEvent* beside) {
+static timing::Standing standing(const Simulation& before, const running::Runner& run,
+                                 const timing::TimedMachine& machine, const running::MoveEvent* beside) {
   const execution::State& state = run.result().state;
   const geometry::Pose programmed = beside != nullptr ? beside->to : programmed_pose(state);
   return {.time = before.time(),
@@ -56,10 +57,10 @@ static Timing::Standing standing(const Simulation& before, const running::Runner
           .spindle_speed = state.spindle_speed};
 }
 
-Simulation::Simulation(const Simulation& before, const running::Runner& run, const TimedMachine& machine)
+Simulation::Simulation(const Simulation& before, const running::Runner& run, const timing::TimedMachine& machine)
     : Simulation(before, run, machine, motion_beside(before.last_motion_.get(), run.result().state)) {}
 
-Simulation::Simulation(const Simulation& before, const running::Runner& run, const TimedMachine& machine,
+Simulation::Simulation(const Simulation& before, const running::Runner& run, const timing::TimedMachine& machine,
                        const running::MoveEvent* beside)
     : machine_(&machine),
       present_(run),
@@ -125,7 +126,7 @@ void Simulation::trace_block(const std::function<void(const kinematics::Move&)>&
 }
 
 void Simulation::trace_stretches(
-    const std::function<void(const TimedEvent& event, const motion::Stretch* stretch)>& on_piece) {
+    const std::function<void(const timing::TimedEvent& event, const motion::Stretch* stretch)>& on_piece) {
   if (has_ended()) return;
   if (!in_block_) start_block();
   while (in_block_ && read_ahead({}) && is_of_block(piece())) {
@@ -145,7 +146,7 @@ void Simulation::start_block() {
   line_ = present_.place().line;
   present_.step();
   for (const running::Event& event : present_.events())
-    spindle_ = spindle_after(event, spindle_, run().state.spindle_speed);
+    spindle_ = timing::spindle_after(event, spindle_, run().state.spindle_speed);
   in_block_ = blocks() > blocks_before;
   if (is_news) {
     timing_.listen(listeners());
@@ -244,26 +245,26 @@ Compensation::Listeners Simulation::compensated() {
 }
 
 /// Adds a piece for each event that takes time, and for each tool change.
-Timing::Listeners Simulation::listeners() {
-  return {
-      .event =
-          [this](const TimedEvent& timed) {
-            if (std::holds_alternative<running::MoveEvent>(timed.event.what)) return;
-            if (!(timed.duration > 0) && !std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
-            pieces_.push_back({.start = timed.start,
-                               .end = timed.start + timed.duration,
-                               .cause = std::make_shared<const TimedEvent>(timed)});
-          },
-      .stretch =
-          [this](const motion::Stretch& stretch, const TimedEvent& timed) {
-            ++stretches_;
-            const bool continues =
-                !pieces_.empty() && pieces_.back().stretch.has_value() && pieces_.back().stretch->tag == stretch.tag;
-            pieces_.push_back({.start = stretch.start,
-                               .end = stretch.start + stretch.duration,
-                               .cause = continues ? pieces_.back().cause : std::make_shared<const TimedEvent>(timed),
-                               .stretch = stretch});
-          }};
+timing::TimingListeners Simulation::listeners() {
+  return {.event =
+              [this](const timing::TimedEvent& timed) {
+                if (std::holds_alternative<running::MoveEvent>(timed.event.what)) return;
+                if (!(timed.duration > 0) && !std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
+                pieces_.push_back({.start = timed.start,
+                                   .end = timed.start + timed.duration,
+                                   .cause = std::make_shared<const timing::TimedEvent>(timed)});
+              },
+          .stretch =
+              [this](const motion::Stretch& stretch, const timing::TimedEvent& timed) {
+                ++stretches_;
+                const bool continues = !pieces_.empty() && pieces_.back().stretch.has_value() &&
+                                       pieces_.back().stretch->tag == stretch.tag;
+                pieces_.push_back(
+                    {.start = stretch.start,
+                     .end = stretch.start + stretch.duration,
+                     .cause = continues ? pieces_.back().cause : std::make_shared<const timing::TimedEvent>(timed),
+                     .stretch = stretch});
+              }};
 }
 
 std::size_t Simulation::line() const {
@@ -351,7 +352,7 @@ void Simulation::forget_past() {
 
 std::size_t Simulation::memory() const {
   return sizeof(*this) + compensation_.memory() + timing_.memory() +
-         pieces_.size() * (sizeof(TimelinePiece) + sizeof(TimedEvent));
+         pieces_.size() * (sizeof(TimelinePiece) + sizeof(timing::TimedEvent));
 }
 
 }  // namespace isocnc::simulation

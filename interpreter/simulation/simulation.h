@@ -11,7 +11,7 @@
 #include "interpreter/motion/stretch.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/compensation.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::simulation {
 
@@ -41,10 +41,10 @@ class Simulation {
   /// Called just before the control reads further blocks. At this moment copies of the simulation are smallest.
   using BeforeReading = std::function<void(const Simulation&)>;
 
-  Simulation(const running::Program& program, const running::RunOptions& options, const TimedMachine& machine);
+  Simulation(const running::Program& program, const running::RunOptions& options, const timing::TimedMachine& machine);
   /// Continues with another run on the machine of `before`, which is between two blocks and not under G41 or G42. The
   /// machine comes to rest where it is, and blocks read ahead are discarded.
-  Simulation(const Simulation& before, const running::Runner& run, const TimedMachine& machine);
+  Simulation(const Simulation& before, const running::Runner& run, const timing::TimedMachine& machine);
 
   /// Whether the program has ended and the machine stands.
   bool has_ended() const { return present_.has_ended() && !in_block_; }
@@ -68,7 +68,8 @@ class Simulation {
   /// Ends the block in progress or, between two blocks, the next one, like step_block(). Calls `on_piece` with each
   /// stretch of motion that the machine has not completed yet, and with null for each event that takes time without one
   /// and for each tool change. The duration of a motion's event is not known.
-  void trace_stretches(const std::function<void(const TimedEvent& event, const motion::Stretch* stretch)>& on_piece);
+  void trace_stretches(
+      const std::function<void(const timing::TimedEvent& event, const motion::Stretch* stretch)>& on_piece);
 
   /// The block that comes next, before it is executed; none where the program ends.
   std::optional<running::Block> next() { return present_.next(); }
@@ -93,19 +94,19 @@ class Simulation {
   /// non-const call.
   const kinematics::Move* motion() const;
   motion::Sample sample() const;
-  /// Whether it is known where the machine is: not after a tool whose length is not known (TipPosition).
+  /// Whether it is known where the machine is: not after a tool whose length is not known (timing::TipPosition).
   bool is_place_known() const;
   /// Of the tip, at the present or, within a motion, before it.
-  UnknownOffset unknown_offset() const { return unknown_offset_ ? *unknown_offset_ : UnknownOffset(); }
+  timing::UnknownOffset unknown_offset() const { return unknown_offset_ ? *unknown_offset_ : timing::UnknownOffset(); }
   /// The last stretch that has been completed with the mounted tool; null if it has not been moved yet.
   const motion::Stretch* stretch_before() const;
   /// Whether it was known where the machine was all along that stretch.
   bool was_place_known() const { return was_place_known_; }
-  const TimedMachine& machine() const { return *machine_; }
+  const timing::TimedMachine& machine() const { return *machine_; }
   /// The mounted tool: within an M06 the one before.
   const execution::ToolCode& tool() const { return tool_; }
   /// The spindle after the block in progress. An S counts only after the next M03 or M04.
-  const Timing::SpindleMotion& spindle() const { return spindle_; }
+  const timing::SpindleMotion& spindle() const { return spindle_; }
   DistanceToGo to_go() const;
   /// The segment of the current arc if the machine drives it as lines; otherwise none.
   std::optional<ArcSegment> segment() const;
@@ -122,14 +123,14 @@ class Simulation {
   std::size_t memory() const;
 
  private:
-  Simulation(const Simulation& before, const running::Runner& run, const TimedMachine& machine,
+  Simulation(const Simulation& before, const running::Runner& run, const timing::TimedMachine& machine,
              const running::MoveEvent* beside);
 
   /// A stretch of a motion, or an event for which the machine stands still.
   struct TimelinePiece {
     double start = 0;
     double end = 0;
-    std::shared_ptr<const TimedEvent> cause;  ///< Its duration is not known yet.
+    std::shared_ptr<const timing::TimedEvent> cause;  ///< Its duration is not known yet.
     std::optional<motion::Stretch> stretch;
   };
 
@@ -145,31 +146,31 @@ class Simulation {
   bool may_read_ahead();
   void plan(std::span<const running::Event> events);
   void come_to_rest();
-  Timing::Listeners listeners();
+  timing::TimingListeners listeners();
   Compensation::Listeners compensated();
 
-  const TimedMachine* machine_;
+  const timing::TimedMachine* machine_;
   running::Runner present_;  ///< The run up to the machine: all blocks started.
   running::Runner ahead_;    ///< The run up to the last block the control has read.
   Compensation compensation_;
-  Timing timing_;
+  timing::Timing timing_;
   std::vector<TimelinePiece> pieces_;  ///< Pieces with known times.
   std::size_t passed_ = 0;             ///< Number of pieces that the machine has completed.
   std::optional<motion::Stretch> last_stretch_;
   /// Of the run from before the constructor; or null.
   std::shared_ptr<const motion::Stretch> earlier_stretch_;
-  bool is_place_known_ = true;                           ///< Where the machine was before the current piece.
-  std::shared_ptr<const UnknownOffset> unknown_offset_;  ///< Of the tip, there; null where it is 0.
+  bool is_place_known_ = true;                                   ///< Where the machine was before the current piece.
+  std::shared_ptr<const timing::UnknownOffset> unknown_offset_;  ///< Of the tip, there; null where it is 0.
   bool has_moved_tool_ = false;  ///< Whether a stretch has been completed since the last tool change.
   bool was_place_known_ = true;  ///< On the last stretch.
   /// Last motion with a completed stretch, possibly from before the constructor; or null.
-  std::shared_ptr<const TimedEvent> last_motion_;
+  std::shared_ptr<const timing::TimedEvent> last_motion_;
   geometry::Pose begin_;  ///< Tip at the start, with a tool of start_tool_length_.
   double start_tool_length_ = 0;
   double travelled_ = 0;      ///< Length of the completed stretches of the current motion.
   execution::ToolCode tool_;  ///< The mounted tool.
   double tool_length_ = 0;    ///< Its length, mm.
-  Timing::SpindleMotion spindle_;
+  timing::SpindleMotion spindle_;
   double time_ = 0;
   bool in_block_ = false;
   std::size_t line_ = 0;         ///< Line of the block in progress.

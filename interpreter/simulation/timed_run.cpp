@@ -4,9 +4,9 @@
 
 namespace isocnc::simulation {
 
-running::RunResult run_timed(std::string_view text, const running::RunOptions& options, const TimedMachine& machine,
-                             Timing::Listeners listeners) {
-  Timing timing(machine, std::move(listeners));
+running::RunResult run_timed(std::string_view text, const running::RunOptions& options,
+                             const timing::TimedMachine& machine, timing::TimingListeners listeners) {
+  timing::Timing timing(machine, std::move(listeners));
   Compensation compensation(machine);
   const Compensation::Listeners compensated = {.event = [&](const running::Event& event) { timing.take(event); },
                                                .warning = [](const RunWarning&) {}};

@@ -7,7 +7,7 @@ namespace isocnc::summary {
 
 using execution::MoveKind;
 
-Summary::Summary(const simulation::TimedMachine& machine)
+Summary::Summary(const timing::TimedMachine& machine)
     : machine_(machine),
       checks_travel_(std::any_of(machine.motion.axes.begin(), machine.motion.axes.end(), [](const auto& axis) {
         return std::isfinite(axis.minimum) || std::isfinite(axis.maximum);
@@ -36,13 +36,13 @@ static std::optional<Work> work_of(const running::Event& event) {
   return std::nullopt;
 }
 
-void Summary::add(const simulation::TimedEvent& timed) {
+void Summary::add(const timing::TimedEvent& timed) {
   if (!timed.move) return add(timed, nullptr);
   kinematics::MadeMove made(machine_.motion, *timed.move);
   add(timed, &made);
 }
 
-void Summary::add(const simulation::TimedEvent& timed, kinematics::MadeMove* made) {
+void Summary::add(const timing::TimedEvent& timed, kinematics::MadeMove* made) {
   has_inches_ |= timed.event.is_in_inches;
   const running::Event& event = timed.event;
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what)) mount(tool->tool);

@@ -11,8 +11,8 @@
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/compensation.h"
 #include "interpreter/simulation/programmed_speeds.h"
-#include "interpreter/simulation/timing.h"
 #include "interpreter/summary/frame_extents.h"
+#include "interpreter/timing/timing.h"
 
 namespace isocnc::summary {
 
@@ -49,11 +49,11 @@ struct Excess {
 /// Totals of a run.
 class Summary {
  public:
-  explicit Summary(const simulation::TimedMachine& machine);
+  explicit Summary(const timing::TimedMachine& machine);
 
-  void add(const simulation::TimedEvent& timed);
+  void add(const timing::TimedEvent& timed);
   /// The same, where others ask the motion as well. `made` is that of the event; null if it has none.
-  void add(const simulation::TimedEvent& timed, kinematics::MadeMove* made);
+  void add(const timing::TimedEvent& timed, kinematics::MadeMove* made);
   /// `joints` are the positions at the end.
   void finish(const running::RunResult& result, double seconds, const kinematics::Coordinates& joints,
               const std::vector<simulation::RunWarning>& warnings);
@@ -80,7 +80,7 @@ class Summary {
   /// Programmed tip position at the end.
   geometry::Pose final_pose() const;
 
-  const simulation::TimedMachine& machine_;
+  const timing::TimedMachine& machine_;
   std::array<Travelled, 3> moves_;  ///< By MoveKind.
   std::optional<std::array<geometry::Range, execution::kAxisCount>> extents_;
   FrameLog frames_;

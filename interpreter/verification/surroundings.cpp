@@ -61,7 +61,7 @@ solids::Clearance distance_of(const BodyPair& pair, const BodyPairs& bodies, con
 
 }  // namespace
 
-NeighborsAtHome neighbors_at_home(const Scene& scene, const simulation::TimedMachine& machine) {
+NeighborsAtHome neighbors_at_home(const Scene& scene, const timing::TimedMachine& machine) {
   const kinematics::Kinematics& kinematics = machine.motion.kinematics;
   const kinematics::Coordinates joints = inverse(kinematics, kinematics::coordinates(machine.home), 0);
   // Only bodies of the machine are made to be so, wherever the setup is, and no tool is mounted.

@@ -5,13 +5,13 @@
 
 #include "interpreter/kinematics/machine.h"
 #include "interpreter/kinematics/move.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 #include "interpreter/verification/body_pairs.h"
 
 namespace isocnc::verification {
 
 /// The bodies of a machine that are near each other where it stands at home, as it does when a program starts.
-NeighborsAtHome neighbors_at_home(const Scene& scene, const simulation::TimedMachine& machine);
+NeighborsAtHome neighbors_at_home(const Scene& scene, const timing::TimedMachine& machine);
 
 /// An obstacle, and how near the machine is to it.
 struct Neighbor {

@@ -250,23 +250,23 @@ VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier,
   return verified;
 }
 
-VerifiedRun verified_run(std::string_view text, running::RunOptions options, const simulation::TimedMachine& machine,
+VerifiedRun verified_run(std::string_view text, running::RunOptions options, const timing::TimedMachine& machine,
                          const Scene* scene, WorkTogether work_together, const MaterialOptions& material) {
   if (!scene) return {.outcome = simulation::outcome_of_run(text, std::move(options), machine)};
   simulation::RunFindings findings(machine);
   Verifier verifier(*scene, machine, first_workpiece_origin(text, options), std::move(work_together), material);
-  simulation::Timing timing(machine, {.event =
-                                          [&](const simulation::TimedEvent& timed) {
-                                            if (timed.move) {
-                                              kinematics::MadeMove made(machine.motion, *timed.move);
-                                              findings.take(timed.event, made);
-                                            }
-                                            verifier.take(timed);
-                                          },
-                                      .stretch =
-                                          [&](const motion::Stretch& stretch, const simulation::TimedEvent& timed) {
-                                            verifier.take(stretch, removal::MotionFacts(timed));
-                                          }});
+  timing::Timing timing(machine, {.event =
+                                      [&](const timing::TimedEvent& timed) {
+                                        if (timed.move) {
+                                          kinematics::MadeMove made(machine.motion, *timed.move);
+                                          findings.take(timed.event, made);
+                                        }
+                                        verifier.take(timed);
+                                      },
+                                  .stretch =
+                                      [&](const motion::Stretch& stretch, const timing::TimedEvent& timed) {
+                                        verifier.take(stretch, removal::MotionFacts(timed));
+                                      }});
   simulation::Compensation compensation(machine);
   const simulation::Compensation::Listeners compensated{
       .event = [&](const running::Event& event) { timing.take(event); },

@@ -34,7 +34,7 @@ VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier,
 
 /// Runs a program on the machine and returns what that shows, in a scene if there is one. Without a scene, no times are
 /// computed. `options.before_block` is replaced.
-VerifiedRun verified_run(std::string_view text, running::RunOptions options, const simulation::TimedMachine& machine,
+VerifiedRun verified_run(std::string_view text, running::RunOptions options, const timing::TimedMachine& machine,
                          const Scene* scene, WorkTogether work_together = {}, const MaterialOptions& material = {});
 
 }  // namespace isocnc::verification

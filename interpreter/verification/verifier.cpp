@@ -19,7 +19,7 @@ static constexpr std::size_t kPart = 1024;
 /// Stretches that wait at most.
 static constexpr std::size_t kBatch = 4 * kPart;
 
-Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, const Vec3& origin,
+Verifier::Verifier(const Scene& scene, const timing::TimedMachine& machine, const Vec3& origin,
                    WorkTogether work_together, const MaterialOptions& material)
     : scene_(scene),
       machine_(machine),
@@ -56,7 +56,7 @@ void Verifier::take(const motion::Stretch& stretch, const removal::MotionFacts& 
   if (stretches_.size() == kBatch) examine_waiting();
 }
 
-void Verifier::take(const simulation::TimedEvent& event) {
+void Verifier::take(const timing::TimedEvent& event) {
   if (const auto* const frame = std::get_if<running::FrameEvent>(&event.event.what)) frames_.push_back(frame->in_force);
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what)) mount(tool->tool, event);
   // Without a stretch, too: what is no motion with a length of 0 may be one.
@@ -71,10 +71,10 @@ void Verifier::take_end(const removal::MotionFacts& motion, double time) {
   if (material_) material_->take_end(motion, time);
 }
 
-MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool,
+MountedTool mounted_tool(const Scene& scene, const timing::TimedMachine& machine, const execution::ToolCode& tool,
                          bool is_place_known) {
   const auto known = scene.tools.find(tool);
-  const simulation::ToolLength length = machine.length_of(tool);
+  const timing::ToolLength length = machine.length_of(tool);
   return {.bodies = known == scene.tools.end() ? nullptr : &known->second,
           .name = tool == execution::ToolCode() ? std::string() : running::tool_name(tool),
           .length = length.mm,
@@ -90,7 +90,7 @@ static motion::Stretch rest_at(const kinematics::Coordinates& joints, double too
   return rest;
 }
 
-void Verifier::mount(const execution::ToolCode& tool, const simulation::TimedEvent& timed) {
+void Verifier::mount(const execution::ToolCode& tool, const timing::TimedEvent& timed) {
   const running::Event& event = timed.event;
   const double time = timed.start + timed.duration;
   examine_waiting();

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 #include "interpreter/verification/contact_log.h"
 #include "interpreter/verification/material.h"
 
@@ -20,13 +20,13 @@ using WorkTogether = std::function<void(const std::function<void()>& work)>;
 class Verifier {
  public:
   /// Refers to the machine and the scene. `origin` is that of the first workpiece frame, machine frame, mm.
-  Verifier(const Scene& scene, const simulation::TimedMachine& machine, const geometry::Vec3& origin,
+  Verifier(const Scene& scene, const timing::TimedMachine& machine, const geometry::Vec3& origin,
            WorkTogether work_together = {}, const MaterialOptions& material = {});
 
   /// Takes a stretch of a motion.
   void take(const motion::Stretch& stretch, const removal::MotionFacts& motion);
   /// Takes an event that has been made.
-  void take(const simulation::TimedEvent& event);
+  void take(const timing::TimedEvent& event);
   /// Takes the end of a motion, seconds: what there is to know of the event of one between known places.
   void take_end(const removal::MotionFacts& motion, double time);
   /// Ends the run.
@@ -48,14 +48,14 @@ class Verifier {
     bool is_in_inches = false;
   };
 
-  void mount(const execution::ToolCode& tool, const simulation::TimedEvent& event);
+  void mount(const execution::ToolCode& tool, const timing::TimedEvent& event);
   void arrive_at_known_place();
   void note_unknown_place(std::size_t line);
   void examine_waiting();
   void finish_material();
 
   const Scene& scene_;
-  const simulation::TimedMachine& machine_;
+  const timing::TimedMachine& machine_;
   geometry::Vec3 origin_;
   WorkTogether work_together_;
   execution::ToolCode tool_;
@@ -80,7 +80,7 @@ class Verifier {
 
 /// A tool that a machine mounts, with its bodies in a scene. `is_place_known` says whether it is known where the
 /// machine is; a tool whose length is not known is nowhere. The result refers to the scene.
-MountedTool mounted_tool(const Scene& scene, const simulation::TimedMachine& machine, const execution::ToolCode& tool,
+MountedTool mounted_tool(const Scene& scene, const timing::TimedMachine& machine, const execution::ToolCode& tool,
                          bool is_place_known = true);
 
 /// The origin of the first workpiece frame that a run sets (G92); machine frame, mm. 0 if it sets none.

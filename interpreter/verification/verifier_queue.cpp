@@ -11,7 +11,7 @@ static constexpr std::size_t kMostWaiting = 512;
 VerifierQueue::VerifierQueue(Verifier& verifier, Alongside alongside)
     : verifier_(verifier), alongside_(std::move(alongside)) {}
 
-void VerifierQueue::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
+void VerifierQueue::take(const motion::Stretch& stretch, const timing::TimedEvent& event) {
   const removal::MotionFacts motion(event);
   if (!alongside_.start) return verifier_.take(stretch, motion);
   filling_->order.push_back(Kind::Stretch);
@@ -20,7 +20,7 @@ void VerifierQueue::take(const motion::Stretch& stretch, const simulation::Timed
   if (filling_->stretches.size() == kMostWaiting) hand_over();
 }
 
-void VerifierQueue::take(const simulation::TimedEvent& event) {
+void VerifierQueue::take(const timing::TimedEvent& event) {
   if (!alongside_.start) return verifier_.take(event);
   if (std::holds_alternative<running::MoveEvent>(event.event.what) && event.is_at_known_place()) {
     filling_->order.push_back(Kind::End);

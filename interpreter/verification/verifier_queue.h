@@ -23,9 +23,9 @@ class VerifierQueue {
   explicit VerifierQueue(Verifier& verifier, Alongside alongside = {});
 
   /// Takes a stretch of motion, with its event.
-  void take(const motion::Stretch& stretch, const simulation::TimedEvent& event);
+  void take(const motion::Stretch& stretch, const timing::TimedEvent& event);
   /// Takes an event that has been made.
-  void take(const simulation::TimedEvent& event);
+  void take(const timing::TimedEvent& event);
   /// Returns when the verifier has taken everything.
   void finish();
 
@@ -44,7 +44,7 @@ class VerifierQueue {
     std::vector<motion::Stretch> stretches;
     std::vector<removal::MotionFacts> motions;  ///< Of the stretches.
     std::vector<EndOfMotion> ends;
-    std::vector<simulation::TimedEvent> events;
+    std::vector<timing::TimedEvent> events;
   };
 
   void pass(Delivery& delivery);

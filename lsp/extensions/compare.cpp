@@ -49,7 +49,7 @@ void from_json(const Json& json, CompareParams& params) {
 struct ComparedText {
   std::string text;
   running::RunOptions options;
-  simulation::TimedMachine machine;
+  timing::TimedMachine machine;
 
   /// Throws rpc::Error, RequestCancelled, once `stop` returns true.
   RecordedRun record(const std::function<bool()>& stop) const {
@@ -136,7 +136,7 @@ std::string CompareTask::compute(const std::function<bool()>& stop) {
 
 BackgroundRequest start_comparison(const Snapshot& snapshot, const CompareParams& params) {
   const running::RunOptions options{.setup = snapshot.setup(), .vgpl = params.vgpl};
-  const simulation::TimedMachine& machine = snapshot.configuration().machine.timed;
+  const timing::TimedMachine& machine = snapshot.configuration().machine.timed;
   const auto task = std::make_shared<CompareTask>(
       CompareTask{.old_program = {params.text, options, machine},
                   .new_program = {snapshot.document().text(), options, machine},

@@ -73,7 +73,7 @@ struct ToolpathTask {
 };
 
 std::string ToolpathTask::compute(const std::function<bool()>& stop) {
-  const simulation::TimedMachine& machine = program.machine().timed;
+  const timing::TimedMachine& machine = program.machine().timed;
   std::optional<verification::Verifier> verifier;
   std::optional<plot::StockRecording> cuts;
   subject.scene = program.scene();
@@ -87,12 +87,12 @@ std::string ToolpathTask::compute(const std::function<bool()>& stop) {
   plot::Toolpath path(machine, subject.home, [&](const plot::ToolpathStep& step) { recording.add(step); });
   const running::RunResult result =
       program.run(stop, {.event =
-                             [&](const simulation::TimedEvent& timed) {
+                             [&](const timing::TimedEvent& timed) {
                                path.add(timed);
                                if (verifier) verifier->take(timed);
                              },
                          .stretch =
-                             [&](const motion::Stretch& stretch, const simulation::TimedEvent& timed) {
+                             [&](const motion::Stretch& stretch, const timing::TimedEvent& timed) {
                                path.add(stretch);
                                if (verifier) verifier->take(stretch, removal::MotionFacts(timed));
                              }});

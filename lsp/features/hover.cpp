@@ -15,8 +15,8 @@
 #include "interpreter/dialect/letters.h"
 #include "interpreter/execution/machine_move.h"
 #include "interpreter/kinematics/travel.h"
-#include "interpreter/simulation/timing.h"
 #include "interpreter/text/unicode.h"
+#include "interpreter/timing/timing.h"
 #include "lsp/features/feature.h"
 #include "lsp/queries/assignments.h"
 #include "lsp/queries/line_run.h"
@@ -250,9 +250,9 @@ class HoverWriter {
 
   /// The length of the tip's path in mm. In a rapid that turns B or C the tip swings.
   double tip_length(const execution::MachineMove& move, const LineRun& run) const {
-    const simulation::TimedMachine& machine = snapshot_.configuration().machine.timed;
+    const timing::TimedMachine& machine = snapshot_.configuration().machine.timed;
     return kinematics::tip_travel(machine.motion,
-                                  simulation::planned_move(move, machine, machine.tool_length(run.after.tool)))
+                                  timing::planned_move(move, machine, machine.tool_length(run.after.tool)))
         .length;
   }
 
@@ -319,7 +319,7 @@ class HoverWriter {
     for (const dialect::MCode& code : dialect::kMCodes) {
       if (word_.value != code.number) continue;
       title(fmt::format("{} ({})", code.name.in(language_), code.section));
-      const simulation::Durations& durations = snapshot_.configuration().machine.timed.durations;
+      const timing::Durations& durations = snapshot_.configuration().machine.timed.durations;
       if (code.number == dialect::kToolChange) add(text(kTakes, shown(durations.tool_change)));
       if (code.number >= 3 && code.number <= 5) add(text(kTakesWhereItChanges, shown(durations.spindle)));
       return;

@@ -6,8 +6,8 @@
 
 #include "interpreter/execution/machine_move.h"
 #include "interpreter/execution/plane.h"
-#include "interpreter/simulation/timing.h"
-#include "interpreter/simulation/tip_position.h"
+#include "interpreter/timing/timing.h"
+#include "interpreter/timing/tip_position.h"
 
 namespace isocnc::queries {
 
@@ -138,9 +138,9 @@ class LinesAbove {
     const auto before = mounted_tool(snapshot_, line, run.before);
     const auto after = mounted_tool(snapshot_, line + 1, run.after);
     if (!before || !after) return std::nullopt;
-    const simulation::TimedMachine& machine = snapshot_.configuration().machine.timed;
-    const simulation::ToolLength one = machine.length_of(*before);
-    const simulation::ToolLength other = machine.length_of(*after);
+    const timing::TimedMachine& machine = snapshot_.configuration().machine.timed;
+    const timing::ToolLength one = machine.length_of(*before);
+    const timing::ToolLength other = machine.length_of(*after);
     return *before != *after && !(one.is_known && other.is_known && one.mm == other.mm);
   }
 
@@ -152,7 +152,7 @@ class LinesAbove {
 class TipFollower {
  public:
   /// Starts before a line, with the tip where the program has it.
-  TipFollower(const simulation::TimedMachine& machine, const LineRun& first, const ToolCode& tool)
+  TipFollower(const timing::TimedMachine& machine, const LineRun& first, const ToolCode& tool)
       : machine_(machine),
         tool_(tool),
         tip_(pose_in_machine(first.before), pose_in_machine(first.before), machine.length_of(tool),
@@ -166,7 +166,7 @@ class TipFollower {
     const bool was_place_known = is_place_known();
     tip_.take(running::FrameEvent{.face = run.moved_in.face});
     const running::MoveEvent move = execution::in_machine(*run.move, run.moved_in);
-    kinematics::Move made = simulation::planned_move(move, machine_, tip_.tool_length());
+    kinematics::Move made = timing::planned_move(move, machine_, tip_.tool_length());
     tip_.follow(move, made);
     if (!was_place_known || !is_place_known()) return std::nullopt;
     return made;
@@ -175,9 +175,9 @@ class TipFollower {
  private:
   bool is_place_known() const { return tip_.is_place_known(machine_.motion.kinematics); }
 
-  const simulation::TimedMachine& machine_;
+  const timing::TimedMachine& machine_;
   ToolCode tool_;
-  simulation::TipPosition tip_;
+  timing::TipPosition tip_;
 };
 
 }  // namespace
@@ -188,7 +188,7 @@ std::optional<kinematics::Move> machine_motion(const Snapshot& snapshot, std::si
   const auto tool = mounted_tool(snapshot, line + 1, run.after);
   const auto above = LinesAbove(snapshot).back_from(line);
   if (!tool || !above) return std::nullopt;
-  const simulation::TimedMachine& machine = snapshot.configuration().machine.timed;
+  const timing::TimedMachine& machine = snapshot.configuration().machine.timed;
   const LineRun& first = above->empty() ? run : above->back();
   const auto first_tool = mounted_tool(snapshot, line - above->size(), first.before);
   if (!first_tool) return std::nullopt;

@@ -13,7 +13,7 @@ namespace isocnc::queries {
 ///
 /// Nothing where the tool is beside the program: under G41 and G42, and after G40 until a motion has led it back.
 /// Nothing either where the lines above do not show where the tip is, and where it is not known where the machine is:
-/// not after a tool whose length is not known (simulation::TipPosition).
+/// not after a tool whose length is not known (timing::TipPosition).
 std::optional<kinematics::Move> machine_motion(const documents::Snapshot& snapshot, std::size_t line,
                                                const LineRun& run);
 

@@ -81,7 +81,7 @@ std::optional<NearestObstacle> nearest_obstacle(const Snapshot& snapshot, std::s
   if (runs.size() > kMaxPaths) return std::nullopt;
   const KnownSurroundings& around = surroundings_of(snapshot);
   if (!around.scene || !around.origin) return std::nullopt;
-  const simulation::TimedMachine& machine = snapshot.configuration().machine.timed;
+  const timing::TimedMachine& machine = snapshot.configuration().machine.timed;
   std::optional<NearestObstacle> nearest;
   for (const LineRun& run : runs) {
     const auto move = machine_motion(snapshot, line, run);

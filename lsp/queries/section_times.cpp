@@ -11,7 +11,7 @@ namespace {
 
 /// Adds up the events of a run.
 struct Adder {
-  void add(const simulation::TimedEvent& timed) {
+  void add(const timing::TimedEvent& timed) {
     if (std::holds_alternative<running::ToolEvent>(timed.event.what)) {
       line = timed.event.line;
       sections.try_emplace(line, TimedSection{.start = timed.start});
@@ -30,7 +30,7 @@ struct Adder {
     for (std::size_t axis = 0; axis < section.cut.size(); ++axis) section.cut[axis].include(travel.extents[axis]);
   }
 
-  const simulation::TimedMachine& machine;
+  const timing::TimedMachine& machine;
   Sections sections;
   std::size_t line = 0;
 };
@@ -62,7 +62,7 @@ std::shared_ptr<const Sections> SectionTimes::time(const TimedProgram& program, 
   if (auto found = known(program.version(), program.machine())) return found;
   Adder adder{.machine = program.machine().timed};
   const running::RunResult result =
-      program.run(stop, {.event = [&](const simulation::TimedEvent& timed) { adder.add(timed); }, .stretch = {}});
+      program.run(stop, {.event = [&](const timing::TimedEvent& timed) { adder.add(timed); }, .stretch = {}});
   if (result.ending == running::Ending::Error) adder.sections.erase(adder.line);
   const std::lock_guard lock(mutex_);
   version_ = program.version();

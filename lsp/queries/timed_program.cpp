@@ -12,7 +12,7 @@ TimedProgram::TimedProgram(const documents::Snapshot& snapshot, double vgpl)
       options_{.setup = snapshot.setup(), .vgpl = vgpl},
       version_(snapshot.version()) {}
 
-running::RunResult TimedProgram::run(const std::function<bool()>& stop, simulation::Timing::Listeners listeners) const {
+running::RunResult TimedProgram::run(const std::function<bool()>& stop, timing::TimingListeners listeners) const {
   running::RunOptions options = options_;
   options.stop = stop;
   running::RunResult result = simulation::run_timed(text_, options, machine().timed, std::move(listeners));

@@ -26,7 +26,7 @@ class TimedProgram {
 
   /// Runs the program to its end or first error. Calls `stop` at intervals and throws rpc::Error, RequestCancelled,
   /// when that returns true.
-  running::RunResult run(const std::function<bool()>& stop, simulation::Timing::Listeners listeners) const;
+  running::RunResult run(const std::function<bool()>& stop, timing::TimingListeners listeners) const;
 
  private:
   std::string text_;

@@ -11,15 +11,15 @@
 namespace isocnc::comparison {
 
 /// A machine whose head turns and whose tools have lengths.
-inline simulation::TimedMachine machine_of_tests() {
-  simulation::TimedMachine machine{.motion = kinematics::head_router()};
+inline timing::TimedMachine machine_of_tests() {
+  timing::TimedMachine machine{.motion = kinematics::head_router()};
   for (kinematics::AxisLimits& axis : machine.motion.axes) axis.minimum = -1e6, axis.maximum = 1e6;
   machine.tool_radii = {{execution::tool_code(101001), 3}};
   return machine;
 }
 
 inline RecordedRun recorded(std::string_view program, double vgpl = 0) {
-  static const simulation::TimedMachine machine = machine_of_tests();
+  static const timing::TimedMachine machine = machine_of_tests();
   running::RunOptions options;
   options.vgpl = vgpl;
   return record(program, options, machine);

@@ -565,7 +565,7 @@ TEST(Comparison, ComparesTheWholePathOfRapidsThatTurn) {
   EXPECT_EQ(on_the_way, "") << tip_at(0.5);
   EXPECT_NE(beside, "");
   // Another machine leads the tip otherwise between the same ends.
-  simulation::TimedMachine other = machine_of_tests();
+  timing::TimedMachine other = machine_of_tests();
   other.motion.kinematics.pivot += 50;
   const std::vector<BehaviorChange> changes = compare(recorded(one), record(one, {}, other), {});
   ASSERT_EQ(changes.size(), 1U) << shown(changes);
@@ -575,7 +575,7 @@ TEST(Comparison, ComparesTheWholePathOfRapidsThatTurn) {
 
 /// Where each joint goes at its own speed, a place on the line between the ends is not on the way.
 TEST(Comparison, ComparesTheWholePathOfIndependentRapids) {
-  simulation::TimedMachine machine = machine_of_tests();
+  timing::TimedMachine machine = machine_of_tests();
   const auto shown_on = [&](const std::string& one, const std::string& other) {
     return shown(compare(record(one, {}, machine), record(other, {}, machine), {}));
   };

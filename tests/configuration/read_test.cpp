@@ -134,7 +134,7 @@ TEST(ReadConfiguration, ReadsTheProfilesThatShip) {
         std::filesystem::path(ISOCNC_SOURCE_DIR) / "examples/machines" / (name + ".json");
     std::stringstream text;
     text << std::ifstream(file, std::ios::binary).rdbuf();
-    const simulation::TimedMachine machine = read(text.str()).machine.timed;
+    const timing::TimedMachine machine = read(text.str()).machine.timed;
     for (std::size_t axis = 0; axis < wanted.axes.size(); ++axis) {
       const kinematics::AxisLimits& limits = machine.motion.axes[axis];
       EXPECT_EQ(limits.minimum, wanted.axes[axis].minimum) << name << ' ' << axis;

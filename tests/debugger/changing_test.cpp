@@ -57,7 +57,7 @@ TEST(Changing, VariablesThatAreShownCanBeSetWhereTheyMayBe) {
 /// The state after an S or an F that is set is the state after a block with it.
 TEST(Changing, SpeedsThatAreSetDoAllThatTheProgramsDo) {
   const running::RunOptions options;
-  const simulation::TimedMachine machine;
+  const timing::TimedMachine machine;
   for (const std::string_view mode : {"G94", "G93", "G70"}) {
     const std::string text = "M06 T101001\n" + std::string(mode) + "\nG01 X1 F2\nX2 F3\nX3 F3\nM05\nM02\n";
     for (const char letter : {'S', 'F'}) {

@@ -60,7 +60,7 @@ std::vector<ToldContact> told(const std::vector<verification::Contact>& contacts
 struct Work {
   std::string text;
   running::RunOptions options;
-  simulation::TimedMachine machine;
+  timing::TimedMachine machine;
   std::shared_ptr<const verification::Scene> scene;
 
   verification::VerifiedRun verified() const { return verification::verified_run(text, options, machine, scene.get()); }

@@ -22,7 +22,7 @@ bool are_equal(const Simulation& a, const Simulation& b) {
 
 /// A fresh run to the same moment.
 Simulation fresh_run_to(const Simulation& moment, const running::Program& program, const running::RunOptions& options,
-                        const simulation::TimedMachine& machine) {
+                        const timing::TimedMachine& machine) {
   Simulation fresh(program, options, machine);
   const std::uint64_t whole = moment.blocks() - (moment.is_in_block() ? 1 : 0);
   while (!fresh.has_ended() && (fresh.blocks() < whole || fresh.is_in_block())) fresh.step_block();
@@ -39,7 +39,7 @@ class Walks : public testing::TestWithParam<int> {};
 TEST_P(Walks, EndWhereAFreshRunDoes) {
   support::Random random(static_cast<std::uint64_t>(GetParam()));
   const std::string text = simulation::RandomRun(random).text(3);
-  const simulation::TimedMachine machine = simulation::machine_of_tests();
+  const timing::TimedMachine machine = simulation::machine_of_tests();
   const running::RunOptions options = simulation::options_for(machine);
   const running::Program program(text);
   debuggee::Debuggee walker(debuggee::ProgramText(text), options, machine);
@@ -134,7 +134,7 @@ TEST(ByHand, WhatIsUndoneLeavesNoTrace) {
   for (int seed = 0; seed < 10; ++seed) {
     support::Random random(static_cast<std::uint64_t>(seed));
     const std::string text = simulation::RandomRun(random).text(2);
-    const simulation::TimedMachine machine = simulation::machine_of_tests();
+    const timing::TimedMachine machine = simulation::machine_of_tests();
     debuggee::Debuggee walker(debuggee::ProgramText(text), simulation::options_for(machine), machine);
     for (int i = random.between(1, 20); i > 0; --i) walker.step_block();
     if (walker.hindrance()) continue;

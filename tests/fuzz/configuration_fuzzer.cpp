@@ -24,13 +24,13 @@ static constexpr const char* kProgram =
 static void run_on(const configuration::MachineConfiguration& machine, bool is_summed_up) {
   summary::Summary summary(machine.timed);
   double last = 0;
-  simulation::Timing timing(machine.timed, {.event = [&](const simulation::TimedEvent& timed) {
-                              require(timed.start >= last - 1e-9 * last, "events come in the order of their times");
-                              require(timed.duration >= 0 && std::isfinite(timed.start + timed.duration),
-                                      "times are numbers");
-                              last = timed.start;
-                              if (is_summed_up) summary.add(timed);
-                            }});
+  timing::Timing timing(machine.timed, {.event = [&](const timing::TimedEvent& timed) {
+                          require(timed.start >= last - 1e-9 * last, "events come in the order of their times");
+                          require(timed.duration >= 0 && std::isfinite(timed.start + timed.duration),
+                                  "times are numbers");
+                          last = timed.start;
+                          if (is_summed_up) summary.add(timed);
+                        }});
   running::RunOptions options;
   options.setup = machine.setup;
   options.stop_at_errors = false;

@@ -33,8 +33,8 @@ static void run_program(std::string_view text, bool stop_at_errors) {
 }
 
 /// Head, travel and tools: all that a motion can meet.
-static simulation::TimedMachine machine() {
-  simulation::TimedMachine machine{.motion = kinematics::head_router()};
+static timing::TimedMachine machine() {
+  timing::TimedMachine machine{.motion = kinematics::head_router()};
   machine.tool_lengths[execution::tool_code(101001)] = 120;
   machine.home.tip.z() = 500;
   return machine;
@@ -44,19 +44,19 @@ static simulation::TimedMachine machine() {
 /// is left out.
 static void time_program(std::string_view text) {
   constexpr double kLongestPath = 500;
-  const simulation::TimedMachine timed_on = machine();
+  const timing::TimedMachine timed_on = machine();
   summary::Summary summary(timed_on);
   std::size_t taken = 0;
   std::size_t reported = 0;
   double last = 0;
-  simulation::Timing timing(timed_on, {.event = [&](const simulation::TimedEvent& timed) {
-                              ++reported;
-                              require(timed.start >= last - 1e-9 * last, "events come in the order of their times");
-                              require(timed.duration >= 0 && std::isfinite(timed.start + timed.duration),
-                                      "times are numbers");
-                              last = timed.start;
-                              summary.add(timed);
-                            }});
+  timing::Timing timing(timed_on, {.event = [&](const timing::TimedEvent& timed) {
+                          ++reported;
+                          require(timed.start >= last - 1e-9 * last, "events come in the order of their times");
+                          require(timed.duration >= 0 && std::isfinite(timed.start + timed.duration),
+                                  "times are numbers");
+                          last = timed.start;
+                          summary.add(timed);
+                        }});
   double way = 0;
   running::RunOptions options;
   options.setup.home = timed_on.home;
@@ -75,7 +75,7 @@ static void time_program(std::string_view text) {
 }
 
 static void follow_tool(std::string_view text) {
-  simulation::TimedMachine machine;
+  timing::TimedMachine machine;
   machine.tool_radii[{1, 1, 1}] = 4;
   std::uint64_t line = 0;
   std::uint64_t warned = 0;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 #include "interpreter/verification/scene.h"
 
 namespace isocnc::golden {
@@ -44,7 +44,7 @@ struct Part {
   execution::Setup setup;
   double vgpl = 0;
   std::vector<std::string> selected;         ///< Rules that are off by default, as `W124=warning`.
-  simulation::TimedMachine machine;          ///< The machine for the findings of a run.
+  timing::TimedMachine machine;              ///< The machine for the findings of a run.
   std::optional<verification::Scene> scene;  ///< What surrounds the program, if any.
   bool is_about_rules = false;               ///< In tests/programs/rules and runs: lint findings are marked, too.
   bool is_run = false;                       ///< In tests/programs/runs: findings of a run are marked, too.

@@ -28,17 +28,17 @@ struct Recorded {
   std::size_t tool_count = 0;
 };
 
-Recorded record(std::string_view program, const simulation::TimedMachine& machine) {
+Recorded record(std::string_view program, const timing::TimedMachine& machine) {
   Recorded recorded;
   Toolpath path(machine, {}, [&](const ToolpathStep& step) {
     recorded.steps.push_back({step, {step.points.begin(), step.points.end()}});
   });
-  simulation::Timing timing(machine, {.event = [&](const simulation::TimedEvent& timed) { path.add(timed); },
-                                      .stretch =
-                                          [&](const motion::Stretch& stretch, const simulation::TimedEvent&) {
-                                            recorded.stretches.push_back(stretch);
-                                            path.add(stretch);
-                                          }});
+  timing::Timing timing(machine, {.event = [&](const timing::TimedEvent& timed) { path.add(timed); },
+                                  .stretch =
+                                      [&](const motion::Stretch& stretch, const timing::TimedEvent&) {
+                                        recorded.stretches.push_back(stretch);
+                                        path.add(stretch);
+                                      }});
   const running::RunResult result = running::run(program, {}, [&](const running::Event& event) { timing.take(event); });
   EXPECT_EQ(result.ending, running::Ending::ProgramEnd) << result.line_text;
   timing.finish();
@@ -69,12 +69,12 @@ constexpr std::string_view kProgram =
     "G00 Z100 B0 C0\n"
     "M02\n";
 
-std::vector<simulation::TimedMachine> machines() {
-  std::vector<simulation::TimedMachine> all(3);
+std::vector<timing::TimedMachine> machines() {
+  std::vector<timing::TimedMachine> all(3);
   all[0].motion = kinematics::three_axis_router();
   all[1].motion = kinematics::head_router();
   all[2].motion = kinematics::table_router();
-  for (simulation::TimedMachine& machine : all) machine.tool_lengths[{1, 1, 1}] = 120;
+  for (timing::TimedMachine& machine : all) machine.tool_lengths[{1, 1, 1}] = 120;
   return all;
 }
 
@@ -95,7 +95,7 @@ geometry::Pose pose_at(const Recorded& recorded, double time) {
 }
 
 TEST(Toolpath, IsWhereTheMachineIs) {
-  for (const simulation::TimedMachine& machine : machines()) {
+  for (const timing::TimedMachine& machine : machines()) {
     const Recorded recorded = record(kProgram, machine);
     ASSERT_GT(recorded.stretches.size(), 20u);
     for (const motion::Stretch& stretch : recorded.stretches)

@@ -386,7 +386,7 @@ TEST(Material, ARapidOutOfWhereTheShankIsBelongsToItsContact) {
   bench.scene.tools[Shop::kTool].max_depth = 10;
   bench.scene.setup[0].shape = solids::Cuboid{.minimum = {0, 0, -60}, .maximum = {400, 300, 40}};
   bench.scene.resolution = 0.25;
-  bench.machine.motion = simulation::TimedMachine().motion;
+  bench.machine.motion = timing::TimedMachine().motion;
   const Lines found = told(bench.cut("G00 X100 Y100 Z60\nG01 Z-22 F1000\nX120\nZ-22.5\nG00 Z60\n"));
   ASSERT_EQ(found.size(), 2u) << fmt::format("{}", fmt::join(found, "\n"));
   EXPECT_TRUE(found[0].starts_with("W157 4 "));
@@ -728,10 +728,10 @@ std::vector<std::string> told_to(const Listening& listening, const std::string& 
       return time + listening.interval;
     });
   VerifierQueue queue(verifier, listening.alongside);
-  simulation::Timing timing(bench.machine,
-                            {.event = [&](const simulation::TimedEvent& timed) { queue.take(timed); },
-                             .stretch = [&](const motion::Stretch& stretch,
-                                            const simulation::TimedEvent& timed) { queue.take(stretch, timed); }});
+  timing::Timing timing(bench.machine,
+                        {.event = [&](const timing::TimedEvent& timed) { queue.take(timed); },
+                         .stretch = [&](const motion::Stretch& stretch,
+                                        const timing::TimedEvent& timed) { queue.take(stretch, timed); }});
   running::run(program, options, [&](const running::Event& event) { timing.take(event); });
   timing.finish();
   queue.finish();

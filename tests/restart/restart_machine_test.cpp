@@ -60,7 +60,7 @@ std::string in_words(const running::Event& event, std::uint64_t first) {
 MachineRun course_of(std::string_view text, const RestartOptions& options, std::uint64_t first) {
   MachineRun course;
   const running::RunResult result = simulation::run_timed(
-      text, options.run, options.machine, {.event = [&](const simulation::TimedEvent& timed) {
+      text, options.run, options.machine, {.event = [&](const timing::TimedEvent& timed) {
         if (!timed.move) {
           if (timed.event.line >= first) course.others.push_back(in_words(timed.event, first));
         } else if (goes(*timed.move)) {
@@ -271,8 +271,8 @@ class RandomContours {
 };
 
 /// T101003 is known to have no radius, of T101004 nothing is known.
-simulation::TimedMachine machine_with_tools() {
-  simulation::TimedMachine machine;
+timing::TimedMachine machine_with_tools() {
+  timing::TimedMachine machine;
   machine.tool_lengths = {{{1, 1, 1}, 80}, {{1, 1, 2}, 120}, {{1, 1, 3}, 95}};
   machine.tool_radii = {{{1, 1, 1}, 3}, {{1, 1, 2}, 8}, {{1, 1, 3}, 0}};
   machine.home.tip.z() = 400;
@@ -326,7 +326,7 @@ std::vector<std::string> programs_in(const fs::path& file) {
 }
 
 /// Each tool that the program mounts has a radius and a length of its own.
-void add_tools(const std::string& program, simulation::TimedMachine& machine) {
+void add_tools(const std::string& program, timing::TimedMachine& machine) {
   running::run(program, {}, [&](const running::Event& event) {
     const auto* const tool = std::get_if<running::ToolEvent>(&event.what);
     if (tool == nullptr) return;

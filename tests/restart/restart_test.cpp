@@ -54,7 +54,7 @@ std::vector<Case> cases_in(const fs::path& file) {
 }
 
 /// `radius T101002 8` or `length T101002 50`.
-void add_tool(const std::string& setting, simulation::TimedMachine& machine) {
+void add_tool(const std::string& setting, timing::TimedMachine& machine) {
   std::istringstream words(setting);
   std::string what;
   char letter = 0;

@@ -11,8 +11,8 @@
 namespace isocnc::revisions {
 
 /// A machine whose X ends at 100, and whose feed at 5000 mm/min.
-inline simulation::TimedMachine limited_machine() {
-  simulation::TimedMachine machine;
+inline timing::TimedMachine limited_machine() {
+  timing::TimedMachine machine;
   machine.motion.axes[0].minimum = 0;
   machine.motion.axes[0].maximum = 100;
   machine.motion.feed_speed = 5000.0 / 60;
@@ -20,7 +20,7 @@ inline simulation::TimedMachine limited_machine() {
 }
 
 inline Revision revision_of(std::string_view text) {
-  static const simulation::TimedMachine machine = limited_machine();
+  static const timing::TimedMachine machine = limited_machine();
   static const execution::Setup setup;
   static const selection::Selection selection;
   return {text, machine, setup, selection};

@@ -30,8 +30,8 @@ std::vector<fs::path> examples() {
   return files;
 }
 
-simulation::TimedMachine head_machine() {
-  simulation::TimedMachine machine;
+timing::TimedMachine head_machine() {
+  timing::TimedMachine machine;
   machine.motion.kinematics = kinematics::head_router().kinematics;
   return machine;
 }
@@ -60,7 +60,7 @@ std::optional<std::string> rewritten(const std::string& program, Rewrite how, st
 
 TEST(SameBehavior, OfEachRewriteOfTheEditor) {
   support::Random random(20260206);
-  const simulation::TimedMachine machine = head_machine();
+  const timing::TimedMachine machine = head_machine();
   std::array<int, 6> made{};
   for (const fs::path& file : examples()) {
     const std::string program = text_of_file(file);
@@ -87,7 +87,7 @@ TEST(SameBehavior, IsNoPromiseThatCannotBeBroken) {
   std::string other = rewritten(program, Rewrite::Inches, 3, 5).value_or("");
   const std::size_t inches = other.find("X1.1811");
   ASSERT_NE(inches, std::string::npos) << other;
-  const simulation::TimedMachine machine = head_machine();
+  const timing::TimedMachine machine = head_machine();
   const comparison::RecordedRun run = comparison::record(program, {}, machine);
   EXPECT_EQ(shown(comparison::compare(run, comparison::record(other, {}, machine), {})), "");
   other.replace(inches, 7, "X1.1812");

@@ -22,8 +22,8 @@ using simulation::RunFinding;
 using simulation::RunOutcome;
 using verification::VerifiedRun;
 
-simulation::TimedMachine limited_machine() {
-  simulation::TimedMachine machine;
+timing::TimedMachine limited_machine() {
+  timing::TimedMachine machine;
   machine.motion.axes[0].minimum = 0;
   machine.motion.axes[0].maximum = 100;
   return machine;
@@ -82,7 +82,7 @@ bool has_made_all(const RunOutcome& run, const std::vector<RunDecision>& path) {
 
 /// With all paths, a program has the findings that it has with each value of VGPL, and each path leads to its finding.
 TEST(Verified, FindsWhatEachValueOfVgplShows) {
-  const simulation::TimedMachine machine = limited_machine();
+  const timing::TimedMachine machine = limited_machine();
   std::size_t with_path = 0;
   std::size_t incomplete = 0;
   for (const std::uint64_t seed : support::seeds(3000)) {
@@ -138,8 +138,8 @@ TEST(Verified, TellsTheDeepestContactOfAllPaths) {
   scene.tools[kTool] = {.length = 100, .cutter = std::get<solids::RevolvedBody>(solids::flat_body(5, 60))};
   scene.setup.push_back({.name = "clamp", .shape = solids::Cuboid{{90, -100, 0}, {110, 100, 30}}});
   scene.setup.push_back({.name = "post", .shape = solids::Cuboid{{290, -100, 0}, {310, 100, 18}}});
-  simulation::TimedMachine machine;
-  machine.motion = simulation::unbounded_machine();
+  timing::TimedMachine machine;
+  machine.motion = timing::unbounded_machine();
   machine.tool_lengths[kTool] = 100;
   const VerifiedRun run = verified_on_paths(
       "M06 T101001\nG00 Z100\nX0 Y0\nZ27\nIF VGPL = 0 GOTO N3\nZ20\nIF VGPL = 1 GOTO N3\nZ19\nN3 X200\nX400\nM02\n", {},

@@ -28,13 +28,13 @@ struct Done {
   std::vector<RunWarning> warnings;
 };
 
-TimedMachine machine_with(double radius) {
-  TimedMachine machine;
+timing::TimedMachine machine_with(double radius) {
+  timing::TimedMachine machine;
   if (radius > 0) machine.tool_radii[{1, 1, 1}] = radius;
   return machine;
 }
 
-Done run_with(const TimedMachine& machine, std::string_view program) {
+Done run_with(const timing::TimedMachine& machine, std::string_view program) {
   Done done;
   Compensation compensation(machine);
   const Compensation::Listeners listeners{
@@ -224,7 +224,7 @@ TEST(Compensation, WithoutARadiusChangesNothing) {
 }
 
 TEST(Compensation, HoldsNothingBackWhenItIsOff) {
-  const TimedMachine machine = machine_with(5);
+  const timing::TimedMachine machine = machine_with(5);
   Compensation compensation(machine);
   std::size_t in = 0;
   std::size_t out = 0;
@@ -267,8 +267,8 @@ TEST(Compensation, IsTheSameInEveryFace) {
 /// The feed applies to the tool's center, so the duration equals that of the same path programmed without compensation.
 TEST(Compensation, TakesTheTimeOfThePathThatTheToolGoes) {
   const auto seconds = [](double radius, std::string_view program) {
-    const TimedMachine machine = machine_with(radius);
-    Timing timing(machine, Timing::Listeners{});
+    const timing::TimedMachine machine = machine_with(radius);
+    timing::Timing timing(machine, timing::TimingListeners{});
     Compensation compensation(machine);
     const Compensation::Listeners listeners{.event = [&](const running::Event& event) { timing.take(event); },
                                             .warning = {}};
@@ -312,7 +312,7 @@ TEST(Compensation, WarnsOfWhatTheCutterCannotDo) {
 }
 
 TEST(Compensation, TakesAToolsOwnRadius) {
-  TimedMachine machine = machine_with(5);
+  timing::TimedMachine machine = machine_with(5);
   machine.tool_radii[{1, 2, 2}] = 8;
   const Done done = run_with(machine,
                              "M06 T101001\nG41 G01 X40 F1000\nG40\nG00 X0 Y0\nM06 T102002\nG41 G01 X40\nG40\n"
@@ -363,7 +363,7 @@ TEST(Compensation, LetsAnyNumberOfBlocksStandBetween) {
 }
 
 TEST(Compensation, IsAValue) {
-  const TimedMachine machine = machine_with(5);
+  const timing::TimedMachine machine = machine_with(5);
   Compensation first(machine);
   std::vector<std::string> ends;
   std::vector<std::string> continues;

@@ -44,7 +44,7 @@ class HistoryTest : public testing::Test {
  private:
   std::string text_;
   running::RunOptions options_;
-  TimedMachine machine_;
+  timing::TimedMachine machine_;
   std::optional<running::Program> program_;
   std::optional<Simulation> begin_;
 };

@@ -15,8 +15,8 @@ namespace isocnc::simulation {
 inline constexpr double kTiny = 1e-9;
 
 /// A machine on which every action takes time, so that a run can be stopped within each.
-inline TimedMachine machine_of_tests(bool limits_jerk = false) {
-  TimedMachine machine{.motion = kinematics::head_router()};
+inline timing::TimedMachine machine_of_tests(bool limits_jerk = false) {
+  timing::TimedMachine machine{.motion = kinematics::head_router()};
   if (limits_jerk)
     for (kinematics::AxisLimits& axis : machine.motion.axes) axis.jerk = 20 * axis.acceleration;
   machine.durations = {.tool_change = 5, .spindle = 0.5, .channel = 0.25, .functions = {{100, 0.75}}};
@@ -32,7 +32,7 @@ inline void advance_to(Simulation& simulation, double seconds) {
 }
 
 /// Options with which the program starts at the machine's home.
-inline running::RunOptions options_for(const TimedMachine& machine) {
+inline running::RunOptions options_for(const timing::TimedMachine& machine) {
   running::RunOptions options;
   options.setup.home = machine.home;
   return options;

@@ -26,12 +26,12 @@ class Case {
   Simulation start() const { return Simulation(program_, options_, machine_); }
   std::string_view text() const { return text_; }
   const running::RunOptions& options() const { return options_; }
-  const TimedMachine& machine() const { return machine_; }
+  const timing::TimedMachine& machine() const { return machine_; }
 
  private:
   std::string text_;
   running::Program program_;
-  TimedMachine machine_;
+  timing::TimedMachine machine_;
   running::RunOptions options_;
 };
 

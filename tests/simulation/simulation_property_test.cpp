@@ -30,13 +30,14 @@ Simulation fresh_at(const Case& of, const Simulation& other) {
 /// The result of an uninterrupted run, as in isorun.
 struct Trip {
   explicit Trip(const Case& of)
-      : timing(of.machine(),
-               {.event =
-                    [this](const TimedEvent& timed) {
-                      if (timed.move && timed.duration > 0) moves.push_back(*timed.move);
-                    },
-                .stretch = [this](const motion::Stretch& stretch,
-                                  const TimedEvent& timed) { stretches.emplace_back(stretch, timed.event.line); }}) {
+      : timing(of.machine(), {.event =
+                                  [this](const timing::TimedEvent& timed) {
+                                    if (timed.move && timed.duration > 0) moves.push_back(*timed.move);
+                                  },
+                              .stretch =
+                                  [this](const motion::Stretch& stretch, const timing::TimedEvent& timed) {
+                                    stretches.emplace_back(stretch, timed.event.line);
+                                  }}) {
     Compensation compensation(of.machine());
     const Compensation::Listeners to_timing{.event = [this](const running::Event& event) { timing.take(event); },
                                             .warning = [](const RunWarning&) {}};
@@ -48,7 +49,7 @@ struct Trip {
 
   std::vector<std::pair<motion::Stretch, std::uint64_t>> stretches;  ///< Pairs of a stretch and its line.
   std::vector<kinematics::Move> moves;                               ///< The moves that take time.
-  Timing timing;
+  timing::Timing timing;
   running::RunResult result;
 };
 
@@ -96,7 +97,7 @@ TEST(SimulationProperty, EndsAsARunInOneGo) {
     Random random(seed);
     const Case some{random};
     const Trip trip(some);
-    const Timing& timing = trip.timing;
+    const timing::Timing& timing = trip.timing;
     const running::RunResult& result = trip.result;
     Simulation simulation = some.start();
     advance_to(simulation, 1e9);

@@ -11,8 +11,8 @@
 
 #include "interpreter/kinematics/travel.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/simulation/timing.h"
 #include "interpreter/summary/summary.h"
+#include "interpreter/timing/timing.h"
 #include "tests/support/random.h"
 
 /// Properties of simulated runs of whole programs: motions reach their ends, durations add up, and no joint or feed
@@ -106,22 +106,25 @@ class RandomTrip {
 struct TimedTrip {
   std::uint64_t seed = 0;
   std::string program;
-  std::vector<TimedEvent> motions;  ///< The motions, indexed by the tags of the stretches.
+  std::vector<timing::TimedEvent> motions;  ///< The motions, indexed by the tags of the stretches.
   std::vector<Stretch> stretches;
   double reported_seconds = 0;  ///< The sum of all events' durations in seconds.
   double seconds = 0;
   geometry::Pose tip;
 };
 
-TimedTrip trip_of(std::string_view program, const TimedMachine& machine) {
+TimedTrip trip_of(std::string_view program, const timing::TimedMachine& machine) {
   TimedTrip trip;
-  Timing timing(machine,
-                {.event =
-                     [&](const TimedEvent& timed) {
-                       trip.reported_seconds += timed.duration + timed.wait;
-                       if (timed.move) trip.motions.push_back(timed);
-                     },
-                 .stretch = [&](const Stretch& stretch, const TimedEvent&) { trip.stretches.push_back(stretch); }});
+  timing::Timing timing(machine, {.event =
+                                      [&](const timing::TimedEvent& timed) {
+                                        trip.reported_seconds += timed.duration + timed.wait;
+                                        if (timed.move) trip.motions.push_back(timed);
+                                      },
+                                  .stretch =
+                                      [&](const Stretch& stretch, const timing::TimedEvent&) {
+                                        trip.stretches.push_back(stretch);
+                                        trip.stretches.back().tag = trip.motions.size();
+                                      }});
   running::RunOptions options;
   options.setup.home = machine.home;
   const running::RunResult result = run(program, options, [&](const running::Event& event) { timing.take(event); });
@@ -134,8 +137,8 @@ TimedTrip trip_of(std::string_view program, const TimedMachine& machine) {
 
 class Trips : public testing::TestWithParam<kinematics::MachineKind> {
  protected:
-  static TimedMachine machine() {
-    TimedMachine machine{.motion = kinematics::head_router()};
+  static timing::TimedMachine machine() {
+    timing::TimedMachine machine{.motion = kinematics::head_router()};
     if (GetParam() == kinematics::MachineKind::ThreeAxis) machine.motion = kinematics::three_axis_router();
     if (GetParam() == kinematics::MachineKind::Table) machine.motion = kinematics::table_router();
     machine.motion.axes[kinematics::kB].speed = machine.motion.axes[kinematics::kC].speed = 100;
@@ -149,7 +152,7 @@ class Trips : public testing::TestWithParam<kinematics::MachineKind> {
 
   template <typename Check>
   static void for_trips(Check&& check) {
-    const TimedMachine machine = Trips::machine();
+    const timing::TimedMachine machine = Trips::machine();
     for (const TimedTrip& trip : trips(machine)) {
       SCOPED_TRACE(fmt::format("seed {}\n{}", trip.seed, trip.program));
       check(machine, trip);
@@ -158,7 +161,7 @@ class Trips : public testing::TestWithParam<kinematics::MachineKind> {
   }
 
   /// The trips, planned once for all properties.
-  static const std::vector<TimedTrip>& trips(const TimedMachine& machine) {
+  static const std::vector<TimedTrip>& trips(const timing::TimedMachine& machine) {
     static std::map<kinematics::MachineKind, std::vector<TimedTrip>> kept;
     std::vector<TimedTrip>& all = kept[GetParam()];
     if (all.empty()) {
@@ -176,7 +179,7 @@ class Trips : public testing::TestWithParam<kinematics::MachineKind> {
   /// Calls `check` with samples at both ends of each phase of a stretch and between, and with their weights of
   /// Simpson's rule in seconds.
   template <typename Check>
-  static void for_samples(const TimedMachine& machine, const Stretch& stretch, Check&& check, int parts = 8) {
+  static void for_samples(const timing::TimedMachine& machine, const Stretch& stretch, Check&& check, int parts = 8) {
     double start = stretch.start;
     for (int phase = 0; phase < stretch.phase_count; ++phase) {
       const double duration = stretch.phases[static_cast<std::size_t>(phase)].duration;
@@ -194,7 +197,7 @@ class Trips : public testing::TestWithParam<kinematics::MachineKind> {
 
 TEST_P(Trips, KeepWithinSpeedsAndAccelerations) {
   double fullest = 0;
-  for_trips([&](const TimedMachine& machine, const TimedTrip& trip) {
+  for_trips([&](const timing::TimedMachine& machine, const TimedTrip& trip) {
     for (const Stretch& stretch : trip.stretches)
       for_samples(machine, stretch, [&](const Sample& sample, double) {
         for (int axis = 0; axis < kinematics::kAxisCount; ++axis) {
@@ -209,7 +212,7 @@ TEST_P(Trips, KeepWithinSpeedsAndAccelerations) {
 }
 
 TEST_P(Trips, KeepToTheFeedAndToWhatFeedMovesMay) {
-  for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
+  for_trips([](const timing::TimedMachine& machine, const TimedTrip& trip) {
     for (const Stretch& stretch : trip.stretches) {
       const kinematics::Move& move = *trip.motions[stretch.tag].move;
       if (move.feed.kind == kinematics::FeedKind::Rapid) continue;
@@ -232,7 +235,7 @@ TEST_P(Trips, KeepToTheFeedAndToWhatFeedMovesMay) {
 /// The integral of the speed over time is the length of the path, less what rounded corners and the chords of arcs cut
 /// off.
 TEST_P(Trips, CoverTheirWholePath) {
-  for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
+  for_trips([](const timing::TimedMachine& machine, const TimedTrip& trip) {
     const auto swings = [](const kinematics::Move& move) {
       return !move.controls_tool_point && (move.from.b != move.to.b || move.from.c != move.to.c);
     };
@@ -256,7 +259,7 @@ TEST_P(Trips, CoverTheirWholePath) {
 }
 
 /// The length of the tip's path if each joint moves linearly to its end, as a sum of chords.
-double swung_length(const TimedMachine& machine, const kinematics::Move& move) {
+double swung_length(const timing::TimedMachine& machine, const kinematics::Move& move) {
   constexpr int kChords = 4000;
   const kinematics::Kinematics& kinematics = machine.motion.kinematics;
   const kinematics::Coordinates from = inverse(kinematics, kinematics::coordinates(move.from), move.tool_length);
@@ -274,10 +277,10 @@ double swung_length(const TimedMachine& machine, const kinematics::Move& move) {
 
 /// docs/isorun.md: `lengthMm` is the length of the tip's path, and the summary has the sum.
 TEST_P(Trips, TraceTheLengthsOfTheSummary) {
-  for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
+  for_trips([](const timing::TimedMachine& machine, const TimedTrip& trip) {
     summary::Summary summary(machine);
     std::map<std::string, double> sums;
-    for (const TimedEvent& timed : trip.motions) {
+    for (const timing::TimedEvent& timed : trip.motions) {
       summary.add(timed);
       const auto line = nlohmann::json::parse(to_json(timed, machine));
       const double length = line.at("lengthMm");
@@ -296,7 +299,7 @@ TEST_P(Trips, TraceTheLengthsOfTheSummary) {
 }
 
 TEST_P(Trips, TakeTheTimesThatAreReported) {
-  for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
+  for_trips([](const timing::TimedMachine& machine, const TimedTrip& trip) {
     ASSERT_NEAR(trip.reported_seconds, trip.seconds, 1e-9 * trip.seconds);
     std::vector<double> times(trip.motions.size());
     for (const Stretch& stretch : trip.stretches) times[stretch.tag] += stretch.duration;
@@ -311,7 +314,7 @@ TEST_P(Trips, TakeTheTimesThatAreReported) {
 
 /// Positions and speeds have no jumps; only a tool change moves the tip, while the joints stand still.
 TEST_P(Trips, NeverJump) {
-  for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
+  for_trips([](const timing::TimedMachine& machine, const TimedTrip& trip) {
     for (std::size_t i = 1; i < trip.stretches.size(); ++i) {
       const Stretch& before = trip.stretches[i - 1];
       const Sample end = before.at(machine.motion.kinematics, before.start + before.duration);

@@ -20,7 +20,7 @@ using geometry::Vec3;
 using support::Random;
 
 RecordedRun record(const std::string& program) {
-  simulation::TimedMachine machine{.motion = kinematics::head_router()};
+  timing::TimedMachine machine{.motion = kinematics::head_router()};
   for (kinematics::AxisLimits& axis : machine.motion.axes) axis.minimum = -1e6, axis.maximum = 1e6;
   machine.tool_radii = {{execution::tool_code(101001), 3}};
   return comparison::record(program, {}, machine);

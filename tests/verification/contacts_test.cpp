@@ -52,7 +52,7 @@ TEST(Contacts, StartAndEndOfATouchAreExact) {
   running::RunOptions options;
   options.setup.home = shop.machine.home;
   simulation::run_timed(program, options, shop.machine,
-                        {.event = {}, .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) {
+                        {.event = {}, .stretch = [&](const motion::Stretch& stretch, const timing::TimedEvent&) {
                            stretches.push_back(stretch);
                          }});
   const auto x_at = [&](double time) {
@@ -327,11 +327,11 @@ class SampledRun {
     bool has_tool = false;
     simulation::run_timed(program, options, shop.machine,
                           {.event =
-                               [&](const simulation::TimedEvent& timed) {
+                               [&](const timing::TimedEvent& timed) {
                                  has_tool |= std::holds_alternative<running::ToolEvent>(timed.event.what);
                                },
                            .stretch =
-                               [&](const motion::Stretch& stretch, const simulation::TimedEvent&) {
+                               [&](const motion::Stretch& stretch, const timing::TimedEvent&) {
                                  if (has_tool) sample(stretch);
                                }});
   }

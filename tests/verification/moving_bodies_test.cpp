@@ -41,7 +41,7 @@ kinematics::Coordinates joints_at(const Shop& shop, const std::string& program, 
   options.setup.home = shop.machine.home;
   kinematics::Coordinates joints = kinematics::Coordinates::Zero();
   simulation::run_timed(program, options, shop.machine,
-                        {.event = {}, .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) {
+                        {.event = {}, .stretch = [&](const motion::Stretch& stretch, const timing::TimedEvent&) {
                            if (stretch.start <= time) joints = stretch.at(shop.machine.motion.kinematics, time).joints;
                          }});
   return joints;

@@ -31,10 +31,10 @@ inline std::shared_ptr<const solids::Mesh> mesh_of(const solids::Cuboid& box) {
 /// diameter 50 that is 40 high; the nose above it has a diameter of 120.
 struct Shop {
   Scene scene;
-  simulation::TimedMachine machine;
+  timing::TimedMachine machine;
 
   explicit Shop(kinematics::MachineKind kind = kinematics::MachineKind::ThreeAxis) {
-    machine.motion = simulation::unbounded_machine();
+    machine.motion = timing::unbounded_machine();
     machine.motion.kinematics = {.kind = kind, .pivot = 150, .b_point = {0, 0, -50}, .c_point = {0, 0, -50}};
     machine.home = {.tip = {0, 0, 400}};
     machine.tool_lengths[kTool] = 100;

@@ -30,7 +30,7 @@ struct Case {
   std::string what;
   std::string program;
   Scene scene;
-  simulation::TimedMachine machine;
+  timing::TimedMachine machine;
 };
 
 class Sampled {
@@ -40,10 +40,10 @@ class Sampled {
   explicit Sampled(const Case& of) : case_(of) {
     running::RunOptions options;
     options.setup.home = of.machine.home;
-    simulation::run_timed(of.program, options, of.machine,
-                          {.event = [&](const simulation::TimedEvent& timed) { take(timed); },
-                           .stretch = [&](const motion::Stretch& stretch,
-                                          const simulation::TimedEvent&) { waiting_.push_back(stretch); }});
+    simulation::run_timed(
+        of.program, options, of.machine,
+        {.event = [&](const timing::TimedEvent& timed) { take(timed); },
+         .stretch = [&](const motion::Stretch& stretch, const timing::TimedEvent&) { waiting_.push_back(stretch); }});
   }
   /// Names of the bodies that a point of the tool, the holder or the nose is in by more than `depth`.
   std::set<std::string> hit() const { return hit_; }
@@ -51,7 +51,7 @@ class Sampled {
   std::set<std::string> near() const { return near_; }
 
  private:
-  void take(const simulation::TimedEvent& timed) {
+  void take(const timing::TimedEvent& timed) {
     const auto* const frame = std::get_if<running::FrameEvent>(&timed.event.what);
     if (frame && !has_origin_) {
       origin_ = frame->workpiece_origin;

@@ -4,7 +4,7 @@
 #include "interpreter/kinematics/move.h"
 #include "interpreter/running/event.h"
 
-namespace isocnc::simulation {
+namespace isocnc::timing {
 
 /// The length of a tool, from the spindle nose to the tip.
 struct ToolLength {
@@ -73,4 +73,4 @@ class TipPosition {
   UnknownOffset unknown_;
 };
 
-}  // namespace isocnc::simulation
+}  // namespace isocnc::timing

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <vector>
 
-#include "analyzer/check/side_by_side.h"
+#include "interpreter/threads/crew.h"
 
-namespace isocnc::check {
+namespace isocnc::threads {
 namespace {
 
 /// Counts the numbers below `count` that are taken, on all threads that come.
@@ -90,4 +90,4 @@ TEST(Crew, ATaskThatIsGivenIsDoneBeforeTheCrewEnds) {
 }
 
 }  // namespace
-}  // namespace isocnc::check
+}  // namespace isocnc::threads

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace isocnc::simulation {
+namespace isocnc::timing {
 
 /// First in, first out, for items of some hundred bytes. Unlike std::deque it does not allocate and free memory for
 /// each.
@@ -33,4 +33,4 @@ class Fifo {
   std::size_t first_ = 0;  // Index of the first item that has not been popped.
 };
 
-}  // namespace isocnc::simulation
+}  // namespace isocnc::timing

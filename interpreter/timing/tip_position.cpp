@@ -1,8 +1,8 @@
-#include "interpreter/simulation/tip_position.h"
+#include "interpreter/timing/tip_position.h"
 
 #include <Eigen/LU>
 
-namespace isocnc::simulation {
+namespace isocnc::timing {
 
 using geometry::Mat3;
 using geometry::Vec3;
@@ -79,4 +79,4 @@ void TipPosition::mount(const kinematics::Kinematics& kinematics, const ToolLeng
   is_unknown_off_ = !unknown_.is_zero();
 }
 
-}  // namespace isocnc::simulation
+}  // namespace isocnc::timing

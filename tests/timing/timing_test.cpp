@@ -1,4 +1,4 @@
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,13 +12,15 @@
 #include <fmt/format.h>
 
 #include "interpreter/running/runner.h"
-#include "random_run.h"
+#include "tests/simulation/random_run.h"
 
-namespace isocnc::simulation {
+namespace isocnc::timing {
 namespace {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
+
+using simulation::kTiny;
 
 /// A machine with a maximum of 100 mm/s and 1000 mm/s^2.
 TimedMachine slow_machine() {
@@ -249,4 +251,4 @@ TEST(Timing, OfACircleIsThatOfItsLengthHoweverItIsWritten) {
 }
 
 }  // namespace
-}  // namespace isocnc::simulation
+}  // namespace isocnc::timing

@@ -8,17 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace isocnc::check {
-
-/// Runs `work` on this thread and on `workers` - 1 others (fewer if the system gives no more), and returns when all
-/// have ended. With several threads, an exception that leaves `work` terminates the program: the others may be waiting
-/// for the work that failed.
-void side_by_side(int workers, const std::function<void()>& work);
-
-/// The number of processors, at least 1.
-int processor_count();
-/// The same on all processors.
-void on_all_processors(const std::function<void()>& work);
+namespace isocnc::threads {
 
 /// Threads that stay: one does tasks while their caller goes on, and whoever has nothing to do helps with them. An
 /// exception that leaves a task or its work terminates the program.
@@ -66,4 +56,4 @@ class Crew {
   std::vector<std::thread> helpers_;
 };
 
-}  // namespace isocnc::check
+}  // namespace isocnc::threads

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "interpreter/running/runner.h"
-#include "interpreter/simulation/timing.h"
+#include "interpreter/timing/timing.h"
 #include "tests/support/random.h"
 
-namespace isocnc::simulation {
+namespace isocnc::timing {
 namespace {
 
 using kinematics::MachineKind;
@@ -158,4 +158,4 @@ TEST(KnownPlaceProperty, IsTheSameForAllLengths) {
 }
 
 }  // namespace
-}  // namespace isocnc::simulation
+}  // namespace isocnc::timing

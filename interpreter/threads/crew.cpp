@@ -1,34 +1,10 @@
-#include "analyzer/check/side_by_side.h"
+#include "interpreter/threads/crew.h"
 
-#include <algorithm>
-#include <system_error>
 #include <utility>
 
-namespace isocnc::check {
+#include "interpreter/threads/side_by_side.h"
 
-/// Threads that do the work, at most `count`; those that the system gives suffice.
-static std::vector<std::thread> start_threads(int count, const std::function<void()>& work) {
-  std::vector<std::thread> threads;
-  try {
-    while (static_cast<int>(threads.size()) < count) threads.emplace_back([work]() noexcept { work(); });
-  } catch (const std::system_error&) {
-  }
-  return threads;
-}
-
-void side_by_side(int workers, const std::function<void()>& work) {
-  if (workers <= 1) {
-    work();
-    return;
-  }
-  std::vector<std::thread> helpers = start_threads(workers - 1, [&work] { work(); });
-  [&work]() noexcept { work(); }();
-  for (std::thread& helper : helpers) helper.join();
-}
-
-int processor_count() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
-
-void on_all_processors(const std::function<void()>& work) { side_by_side(processor_count(), work); }
+namespace isocnc::threads {
 
 /// Where more tasks wait, the caller helps rather than make still more: it comes back to that while the tasks do what
 /// one thread has to do alone.
@@ -114,4 +90,4 @@ void Crew::together(const std::function<void()>& work) {
   changed_.wait(lock, [&] { return open_.joined == 0; });
 }
 
-}  // namespace isocnc::check
+}  // namespace isocnc::threads
