@@ -42,7 +42,7 @@ LintRun::LintRun(const LintCommandOptions& options, const formats::ReportStyle& 
       files_(std::move(programs.files)),
       settings_(std::move(programs.settings)),
       renderer_(std::move(renderer)),
-      jobs_(options.jobs > 0 ? options.jobs : threads::processor_count()),
+      jobs_(options.jobs > 0 ? options.jobs : system::processor_count()),
       scenes_(style.language),
       progress_(command_line::terminal_writer(), input::bytes_of(files_)),
       output_(options) {}

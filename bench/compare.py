@@ -210,7 +210,7 @@ class Comparison:
             return
         for kind in RS274_KINDS:
             file = self.corpus(kind, self.options.lines)
-            running = [self.isorun, "--no-config", file]
+            running = on_one_processor([self.isorun, "--no-config", file])
             interpreting = [rs274, "-g", self.in_ngc(file)]
             ratio, text = median_ratio(*take_turns(running, interpreting, self.options.runs), figure="cpu")
             self.add(self.title(kind), "isorun / rs274 -g, CPU", text, ratio, RS274_RATIO)

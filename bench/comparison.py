@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times isodiff on generated programs, and holds it against running both programs.
+"""Times isodiff on generated programs, and holds it against running both programs, each on one processor.
 
 Prints a Markdown table. Exit status: 0 every target met, 1 some missed, 2 could not measure.
 """
@@ -14,6 +14,7 @@ import time
 from pathlib import Path
 
 import editor
+from compare import on_one_processor
 
 EDITS = 10
 RATIO = 2.5
@@ -47,7 +48,7 @@ def edited(text, rng):
 def row(isodiff, isorun, what, programs, runs, target):
     ratios, both_times, diff_times = [], [], []
     for _ in range(runs):
-        alone = sum(seconds(isorun, "--no-config", program)[0] for program in programs)
+        alone = sum(seconds(*on_one_processor([isorun, "--no-config", program]))[0] for program in programs)
         compared, output = seconds(isodiff, "--no-config", "--format", "json", *programs)
         ratios.append(compared / alone)
         both_times.append(alone)

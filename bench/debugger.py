@@ -15,6 +15,7 @@ from pathlib import Path
 
 import editor
 import material
+from compare import on_one_processor
 
 BLOCKS_PER_SECOND = 500_000
 STEP_MS = 5.0
@@ -173,7 +174,7 @@ def measure(build, kind, lines):
         file = Path(folder) / f"{kind}.iso"
         file.write_bytes(editor.corpus(build, kind, lines))
         begin = time.perf_counter()
-        subprocess.run([programs / "isorun", "--no-config", file], stdout=subprocess.DEVNULL, check=False)
+        subprocess.run(on_one_processor([str(programs / "isorun"), "--no-config", str(file)]), stdout=subprocess.DEVNULL, check=False)
         isorun = time.perf_counter() - begin
         isodap = programs / "isodap"
         plain = run_seconds(isodap, file)
@@ -184,7 +185,7 @@ def measure(build, kind, lines):
     print(f"\n{kind}, {lines} lines\n\n| what | measured | target | met |\n|---|---|---|---|")
     return all(
         [
-            row("continue / isorun, wall", f"{plain / isorun:.2f} ({plain:.2f} s / {isorun:.2f} s)", "at most 2", plain <= 2 * isorun),
+            row("continue / isorun on one processor, wall", f"{plain / isorun:.2f} ({plain:.2f} s / {isorun:.2f} s)", "at most 2", plain <= 2 * isorun),
             row("1000 breakpoints, ten of them longer", f"{lines / watched:,.0f} blocks/s", f"at least {BLOCKS_PER_SECOND:,}", lines / watched >= BLOCKS_PER_SECOND),
             row("step", f"{statistics.median(on):.2f} ms, {max(on):.2f} ms at worst", f"at most {STEP_MS:g} ms", max(on) <= STEP_MS),
             row("step back", f"{statistics.median(back):.2f} ms, {max(back):.2f} ms at worst", f"at most {STEP_MS:g} ms", max(back) <= STEP_MS),

@@ -10,8 +10,8 @@
 #include "interpreter/stock/stock_file.h"
 #include "interpreter/stock/surface.h"
 #include "interpreter/system/descriptor.h"
+#include "interpreter/system/process.h"
 #include "interpreter/system/system_texts.h"
-#include "interpreter/threads/side_by_side.h"
 #include "interpreter/verification/verification_report.h"
 
 namespace isocnc::interpreter {
@@ -23,7 +23,8 @@ RunReport::RunReport(const RunOutputs& outputs, const timing::TimedMachine& mach
       trace_(open(outputs.trace, trace_file_)),
       samples_(open(outputs.samples, samples_file_)),
       summary_(machine),
-      timing_(machine, listeners()),
+      // Verifying takes all processors already.
+      timing_(machine, outputs.subject.scene ? 1 : system::processor_count(), listeners()),
       findings_(machine),
       compensation_(machine),
       compensated_{.event = [this](const running::Event& event) { timing_.take(event); },
@@ -36,7 +37,7 @@ RunReport::RunReport(const RunOutputs& outputs, const timing::TimedMachine& mach
   open(outputs.stock_out, stock_file_);
   const plot::PlotSubject& subject = outputs.subject;
   if (subject.scene) {
-    threads::Crew& crew = crew_.emplace(threads::processor_count());
+    threads::Crew& crew = crew_.emplace(system::processor_count());
     const auto together = [&crew](const std::function<void()>& work) { crew.together(work); };
     verifier_.emplace(*subject.scene, machine, subject.origin,
                       crew.has_helpers() ? verification::WorkTogether(together) : verification::WorkTogether(),

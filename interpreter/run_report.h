@@ -13,7 +13,7 @@
 #include "interpreter/summary/summary.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/threads/crew.h"
-#include "interpreter/timing/timing.h"
+#include "interpreter/timing/parallel_timing.h"
 #include "interpreter/verification/verified_run.h"
 #include "interpreter/verification/verifier_queue.h"
 
@@ -82,7 +82,7 @@ class RunReport {
   std::optional<plot::StockRecording> cuts_;  ///< For a page.
   std::uint64_t next_sample_ = 0;             ///< In units of sample_seconds.
   motion::Sample last_sample_;
-  timing::Timing timing_;
+  timing::ParallelTiming timing_;
   simulation::RunFindings findings_;
   std::optional<verification::Verifier> verifier_;
   std::optional<verification::VerifierQueue> verified_;  ///< Leads to the verifier.

@@ -27,8 +27,6 @@ class JerkLimiter {
   void come_to_rest(const kinematics::Machine& machine);
   /// Stays at rest for a time, s. Requires that the machine is at rest.
   void wait(double seconds) { time_ += seconds; }
-  /// Counts the time from 0 again. Requires that the machine is at rest, and that next() has returned all stretches.
-  void restart_clock() { time_ = 0; }
 
   /// Returns the next stretch whose times are final, or null. The pointer is valid until the next call of any other
   /// member function, or of this one.

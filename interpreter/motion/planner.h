@@ -41,12 +41,6 @@ class Planner {
   /// changes, and other waits of the control.
   void rest(double seconds = 0);
 
-  /// Counts the time from 0 again. Requires that the machine is at rest, and that next() has returned all stretches.
-  void restart_clock() {
-    profile_.restart_clock();
-    if (jerk_limiter_) jerk_limiter_->restart_clock();
-  }
-
   /// Returns the next stretch, or null if the moves pushed so far do not determine it yet. The pointer is valid until
   /// the next call of a non-const member function.
   const Stretch* next();
@@ -60,8 +54,7 @@ class Planner {
     return profile_.memory() + bytes_of(tracks_) + (jerk_limiter_ ? jerk_limiter_->memory() : 0);
   }
 
-  /// Returns the time at the end of all stretches that are determined, rests included, since the start or
-  /// restart_clock(), s.
+  /// Returns the time at the end of all stretches that are determined, rests included, s.
   double time() const { return jerk_limiter_ ? jerk_limiter_->time() : profile_.time(); }
 
  private:

@@ -58,8 +58,6 @@ class Profile {
   void come_to_rest();
   /// Stays at rest for a time, s. Requires that the machine is at rest.
   void wait(double seconds) { time_ += seconds; }
-  /// Counts the time from 0 again. Requires that the machine is at rest, and that all spans are popped.
-  void restart_clock() { time_ = 0; }
 
   /// Returns whether enough unplanned spans have accumulated for plan_ahead().
   bool wants_planning() const { return unplanned() >= batch_; }

@@ -48,6 +48,8 @@ void share_one_heap();
 
 /// Whether a program can have more than one thread.
 bool has_threads();
+/// The number of processors that the process may use, at least 1: what `taskset` leaves it.
+int processor_count();
 
 /// Whether a process with this number exists.
 bool is_running(std::int64_t process);

@@ -1,7 +1,8 @@
 #include "interpreter/threads/side_by_side.h"
 
-#include <algorithm>
 #include <system_error>
+
+#include "interpreter/system/process.h"
 
 namespace isocnc::threads {
 
@@ -24,8 +25,6 @@ void side_by_side(int workers, const std::function<void()>& work) {
   for (std::thread& helper : helpers) helper.join();
 }
 
-int processor_count() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
-
-void on_all_processors(const std::function<void()>& work) { side_by_side(processor_count(), work); }
+void on_all_processors(const std::function<void()>& work) { side_by_side(system::processor_count(), work); }
 
 }  // namespace isocnc::threads

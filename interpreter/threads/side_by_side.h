@@ -15,9 +15,7 @@ std::vector<std::thread> start_threads(int count, const std::function<void()>& w
 /// for the work that failed.
 void side_by_side(int workers, const std::function<void()>& work);
 
-/// The number of processors, at least 1.
-int processor_count();
-/// The same on all processors.
+/// The same on all processors that the process may use.
 void on_all_processors(const std::function<void()>& work);
 
 }  // namespace isocnc::threads

@@ -22,8 +22,8 @@ inline PlannedRequest planned_request(const Request& request) {
   return {request.number, timed.move ? &*timed.move : nullptr, timed.wait, request.rest.has_value()};
 }
 
-/// Plans requests, from a rest on. Stretches count their time from the last rest: so they do not depend on what was
-/// before it, and parts of a run that begin at rest can be planned apart from each other, to the same bits.
+/// Plans requests, from a rest on. How long a stretch takes does not depend on what was before the last rest, not even
+/// in its last bit: so parts of a run that begin at rest can be planned apart from each other.
 ///
 /// What is known goes to an `out`: `take(stretch)` for each stretch of motion, and `come_to_rest(number)` where the
 /// machine is at rest before the request of this number.
@@ -71,7 +71,6 @@ class RequestPlanner {
     planner_.rest();
     hand_over(out);
     out.come_to_rest(number);
-    planner_.restart_clock();
     first_waiting_ = number;
   }
 

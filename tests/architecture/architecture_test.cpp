@@ -183,7 +183,7 @@ TEST(Architecture, NoSourceAsksForTheTimeOfDay) {
 /// So that a port to another system has one place.
 TEST(Architecture, OneModuleKnowsOperatingSystems) {
   static const std::regex kHeader(
-      R"((sys|net|netinet|arpa)/.*|unistd\.h|fcntl\.h|poll\.h|malloc\.h|termios\.h|csignal|signal\.h|)"
+      R"((sys|net|netinet|arpa)/.*|unistd\.h|fcntl\.h|poll\.h|sched\.h|malloc\.h|termios\.h|csignal|signal\.h|)"
       R"(windows\.h|winsock2\.h|ws2tcpip\.h|io\.h|emscripten\.h)");
   static const std::regex kCondition(R"(#\s*(el)?ifn?(def)?\b.*\b(_WIN32|__unix__|__linux__|__EMSCRIPTEN__))");
   int count = 0;

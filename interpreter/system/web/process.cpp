@@ -23,6 +23,8 @@ void share_one_heap() {}
 
 bool has_threads() { return false; }
 
+int processor_count() { return 1; }
+
 /// The process that started a server is the page or the editor that holds it.
 bool is_running(std::int64_t) { return true; }
 

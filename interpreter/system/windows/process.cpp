@@ -6,7 +6,9 @@
 #include <io.h>
 #include <shellapi.h>
 
+#include <algorithm>
 #include <atomic>
+#include <bit>
 #include <string_view>
 
 #include "interpreter/system/descriptor.h"
@@ -79,6 +81,13 @@ bool sleep_until_end_request(std::chrono::milliseconds longest) {
 void share_one_heap() {}
 
 bool has_threads() { return true; }
+
+int processor_count() {
+  DWORD_PTR usable = 0;
+  DWORD_PTR all = 0;
+  if (::GetProcessAffinityMask(::GetCurrentProcess(), &usable, &all) == 0) return 1;
+  return std::max(1, std::popcount(usable));
+}
 
 bool is_running(std::int64_t process) {
   HANDLE const opened = ::OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(process));

@@ -1,0 +1,165 @@
+#include "interpreter/timing/parallel_timing.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "interpreter/threads/side_by_side.h"
+
+namespace isocnc::timing {
+
+/// Number of requests in a part that is cut where the machine rests, and the maximum if it does not. Handing a part
+/// over takes some microseconds, as long as planning a few requests.
+static constexpr std::size_t kFewRequests = 128;
+static constexpr std::size_t kMostRequests = 256;
+/// Parts that are not yet reported, for each thread: then the caller's thread plans, too. Some hundred KiB each.
+static constexpr std::size_t kPartsAhead = 2;
+
+ParallelTiming::ParallelTiming(const TimedMachine& machine, int jobs, TimingListeners listeners)
+    : machine_(&machine),
+      jobs_(std::max(jobs, 1)),
+      reader_(machine),
+      times_(std::move(listeners), machine.home, 0),
+      planner_(machine.motion) {}
+
+ParallelTiming::~ParallelTiming() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  changed_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void ParallelTiming::complete_last() {
+  const PlannedRequest request = planned_request(times_.last());
+  if (jobs_ == 1) return planner_.take(request, times_);
+  if (!filling_) filling_ = new_part(request.number);
+  std::vector<PlannedRequest>& requests = filling_->requests;
+  requests.push_back(request);
+  if (request.move != nullptr) requests.back().move = &filling_->moves.emplace_back(*request.move);
+  if (requests.size() < (request.rests ? kFewRequests : kMostRequests)) return;
+  if (request.rests) chain_.reset();
+  hand_over(kPartsAhead * static_cast<std::size_t>(jobs_));
+}
+
+/// A part that continues the chain, or begins one at rest if there is none.
+std::unique_ptr<ParallelTiming::PlannedPart> ParallelTiming::new_part(std::uint64_t first) {
+  std::unique_ptr<PlannedPart> part;
+  if (emptied_.empty()) {
+    part = std::make_unique<PlannedPart>();
+    part->keeps_stretches = times_.wants_stretches();
+    part->requests.reserve(kMostRequests);
+    part->moves.reserve(kMostRequests);  // The requests point to them.
+  } else {
+    part = std::move(emptied_.back());
+    emptied_.pop_back();
+  }
+  if (!chain_) {
+    chain_ = std::make_shared<Chain>(machine_->motion, first);
+    parts_in_chain_ = 0;
+  }
+  part->chain = chain_;
+  part->number_in_chain = parts_in_chain_++;
+  return part;
+}
+
+/// Hands over the part that is filled, and reports those that are planned until so many are left.
+void ParallelTiming::hand_over(std::size_t left) {
+  if (threads_.empty() && !filling_->is_last) threads_ = threads::start_threads(jobs_ - 1, [this] { help(); });
+  {
+    const std::lock_guard lock(mutex_);
+    parts_.push_back(std::move(filling_));
+  }
+  changed_.notify_all();
+  report_planned(left);
+}
+
+void ParallelTiming::finish() {
+  reader_.finish(*this);
+  if (jobs_ == 1) {
+    planner_.finish(times_);
+  } else {
+    if (!filling_) filling_ = new_part(0);
+    filling_->is_last = true;
+    hand_over(0);
+  }
+  has_ended_ = true;
+}
+
+/// The first part that is not planned and whose chain has come to it; null if there is none.
+ParallelTiming::PlannedPart* ParallelTiming::first_plannable() {
+  for (const std::unique_ptr<PlannedPart>& part : parts_) {
+    const Chain& chain = *part->chain;
+    if (!part->is_planned && !chain.is_planning && chain.next == part->number_in_chain) return part.get();
+  }
+  return nullptr;
+}
+
+void ParallelTiming::help() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    PlannedPart* part = nullptr;
+    changed_.wait(lock, [&] { return ends_ || (part = first_plannable()) != nullptr; });
+    if (ends_) return;
+    plan(lock, *part);
+  }
+}
+
+void ParallelTiming::plan(std::unique_lock<std::mutex>& lock, PlannedPart& part) {
+  Chain& chain = *part.chain;
+  chain.is_planning = true;
+  lock.unlock();
+  for (const PlannedRequest& request : part.requests) chain.planner.take(request, part);
+  if (part.is_last) chain.planner.finish(part);
+  lock.lock();
+  chain.is_planning = false;
+  ++chain.next;
+  part.is_planned = true;
+  changed_.notify_all();
+}
+
+void ParallelTiming::report_planned(std::size_t left) {
+  std::unique_lock lock(mutex_);
+  const auto is_first_planned = [&] { return !parts_.empty() && parts_.front()->is_planned; };
+  while (is_first_planned() || parts_.size() > left) {
+    if (is_first_planned()) {
+      std::unique_ptr<PlannedPart> part = std::move(parts_.front());
+      parts_.pop_front();
+      lock.unlock();
+      report(*part);
+      emptied_.push_back(std::move(part));
+      lock.lock();
+    } else if (PlannedPart* const part = first_plannable()) {
+      plan(lock, *part);
+    } else {
+      changed_.wait(lock, [&] { return is_first_planned() || first_plannable() != nullptr; });
+    }
+  }
+}
+
+template <class Stretches>
+void ParallelTiming::report(const Stretches& stretches, const std::vector<Rest>& rests) {
+  auto rest = rests.begin();
+  for (std::size_t i = 0; i <= stretches.size(); ++i) {
+    for (; rest != rests.end() && rest->stretches_before == i; ++rest) times_.come_to_rest(rest->number);
+    if (i < stretches.size()) times_.take(stretches[i]);
+  }
+}
+
+/// Calls the listeners for a planned part, and empties it.
+void ParallelTiming::report(PlannedPart& part) {
+  if (part.keeps_stretches) {
+    report(part.stretches, part.rests);
+  } else {
+    report(part.times, part.rests);
+  }
+  part.chain.reset();
+  part.is_planned = false;
+  part.requests.clear();
+  part.moves.clear();
+  part.stretches.clear();
+  part.times.clear();
+  part.rests.clear();
+}
+
+}  // namespace isocnc::timing
