@@ -17,21 +17,12 @@ using support::fixed;
 using support::motions_of;
 using support::Random;
 using support::random_lines;
+using support::without_what_units_reveal;
 
 struct Sample {
   std::string text;
   std::string line_end;
 };
-
-/// Without the codes by which a program is judged once its units are those that were meant, where it has G20 or G21:
-/// these are rewritten all at once, whatever that brings to light.
-std::multiset<std::string> without_what_units_reveal(std::multiset<std::string> codes, std::string_view text) {
-  static const std::regex kForeignUnits("[Gg][ \\t]*2[ \\t]*[01](?![0-9.])");
-  if (!std::regex_search(text.begin(), text.end(), kForeignUnits)) return codes;
-  for (const char* const code : {"W001", "W111", "W112", "W119", "W120", "W190", "ISO029", "ISO030", "ISO031"})
-    codes.erase(code);
-  return codes;
-}
 
 /// What people write who have worked at other controls.
 std::string with_habits(Random& random, std::string line) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -35,6 +36,16 @@ inline std::multiset<std::string> codes_of(std::string_view text, std::string_vi
   std::multiset<std::string> codes;
   for (const check::LocatedFinding& located : found_in(text, code).findings)
     codes.emplace(dialect::definition(located.finding.id).code);
+  return codes;
+}
+
+/// Without the codes by which a program is judged once its units are those that were meant, where it has G20 or G21:
+/// these are rewritten all at once, whatever that brings to light.
+inline std::multiset<std::string> without_what_units_reveal(std::multiset<std::string> codes, std::string_view text) {
+  static const std::regex kForeignUnits("[Gg][ \\t]*0*2[ \\t]*[01](?![0-9.])");
+  if (!std::regex_search(text.begin(), text.end(), kForeignUnits)) return codes;
+  for (const char* const code : {"W001", "W111", "W112", "W119", "W120", "W190", "ISO029", "ISO030", "ISO031"})
+    codes.erase(code);
   return codes;
 }
 
