@@ -62,6 +62,7 @@ void Profile::come_to_rest() {
   look_back_from_rest();
   plan_until(spans_.size(), 0);
   last_cap_ = 0;
+  batch_ = kPlanningBatch;  // What follows does not depend on what was before.
 }
 
 /// Returns the maximum of x at one end of a line with x at the other. The acceleration is constant on the line, and the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/kinematics/element.h"
 #include "interpreter/threads/side_by_side.h"
 
 namespace isocnc::timing {
@@ -11,6 +12,9 @@ namespace isocnc::timing {
 /// over takes some microseconds, as long as planning a few requests.
 static constexpr std::size_t kFewRequests = 128;
 static constexpr std::size_t kMostRequests = 256;
+/// Maximum number of lines into which an arc of a part is split (kinematics::segment_count). A part keeps their
+/// stretches.
+static constexpr int kMostSegments = 64;
 /// Parts that are not yet reported, for each thread: then the caller's thread plans, too. Some hundred KiB each.
 static constexpr std::size_t kPartsAhead = 2;
 
@@ -33,6 +37,8 @@ ParallelTiming::~ParallelTiming() {
 void ParallelTiming::complete_last() {
   const PlannedRequest request = planned_request(times_.last());
   if (jobs_ == 1) return planner_.take(request, times_);
+  if (request.move != nullptr && kinematics::segment_count(machine_->motion, *request.move) > kMostSegments)
+    return plan_alone(request);
   if (!filling_) filling_ = new_part(request.number);
   std::vector<PlannedRequest>& requests = filling_->requests;
   requests.push_back(request);
@@ -40,6 +46,20 @@ void ParallelTiming::complete_last() {
   if (requests.size() < (request.rests ? kFewRequests : kMostRequests)) return;
   if (request.rests) chain_.reset();
   hand_over(kPartsAhead * static_cast<std::size_t>(jobs_));
+}
+
+/// Plans a request on this thread when all before it are reported, so that its stretches need not be kept.
+void ParallelTiming::plan_alone(const PlannedRequest& request) {
+  const kinematics::Move move = *request.move;  // What is reported moves what waits.
+  if (filling_) hand_over(0);
+  report_planned(0);
+  if (!chain_) begin_chain(request.number);
+  chain_->planner.take({request.number, &move, request.wait, request.rests}, times_);
+}
+
+void ParallelTiming::begin_chain(std::uint64_t first) {
+  chain_ = std::make_shared<Chain>(machine_->motion, first);
+  parts_in_chain_ = 0;
 }
 
 /// A part that continues the chain, or begins one at rest if there is none.
@@ -54,10 +74,7 @@ std::unique_ptr<ParallelTiming::PlannedPart> ParallelTiming::new_part(std::uint6
     part = std::move(emptied_.back());
     emptied_.pop_back();
   }
-  if (!chain_) {
-    chain_ = std::make_shared<Chain>(machine_->motion, first);
-    parts_in_chain_ = 0;
-  }
+  if (!chain_) begin_chain(first);
   part->chain = chain_;
   part->number_in_chain = parts_in_chain_++;
   return part;
@@ -65,7 +82,8 @@ std::unique_ptr<ParallelTiming::PlannedPart> ParallelTiming::new_part(std::uint6
 
 /// Hands over the part that is filled, and reports those that are planned until so many are left.
 void ParallelTiming::hand_over(std::size_t left) {
-  if (threads_.empty() && !filling_->is_last) threads_ = threads::start_threads(jobs_ - 1, [this] { help(); });
+  if (!filling_->is_last && !std::exchange(has_started_, true))
+    threads_ = threads::start_threads(jobs_ - 1, [this] { help(); });
   {
     const std::lock_guard lock(mutex_);
     parts_.push_back(std::move(filling_));

@@ -82,6 +82,8 @@ class ParallelTiming : private RequestReader::Receiver {
   void complete_last() override;
 
   std::unique_ptr<PlannedPart> new_part(std::uint64_t first);
+  void plan_alone(const PlannedRequest& request);
+  void begin_chain(std::uint64_t first);
   void hand_over(std::size_t left);
   void help();
   PlannedPart* first_plannable();
@@ -95,7 +97,8 @@ class ParallelTiming : private RequestReader::Receiver {
   int jobs_;
   RequestReader reader_;
   EventTimes times_;
-  RequestPlanner planner_;  ///< Used while there are no other threads.
+  RequestPlanner planner_;    ///< Used while there are no other threads.
+  bool has_started_ = false;  ///< Threads have been asked for; the system may have given none.
   bool has_ended_ = false;
   std::unique_ptr<PlannedPart> filling_;
   std::shared_ptr<Chain> chain_;  ///< Of the part that is being filled; null if that begins at rest.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "interpreter/motion/planner.h"
 #include "interpreter/timing/request_reader.h"
@@ -35,10 +36,14 @@ class RequestPlanner {
 
   template <class Out>
   void take(const PlannedRequest& request, Out& out) {
-    if (request.rests || request.number - first_waiting_ >= kMaxWaiting) come_to_rest(request.number, out);
+    const bool is_full = request.number - first_waiting_ >= kMaxWaiting;
+    const kinematics::Move* move = request.move;
+    std::optional<kinematics::Move> kept;
+    if (is_full && move != nullptr) move = &kept.emplace(*move);  // What is reported moves what waits.
+    if (is_full || request.rests) come_to_rest(request.number, out);
     if (request.rests) first_waiting_ = request.number + 1;
-    if (request.move == nullptr) return;
-    planner_.push(*request.move);
+    if (move == nullptr) return;
+    planner_.push(*move);
     if (request.wait > 0) planner_.rest(request.wait);
     hand_over(out);
   }

@@ -127,6 +127,30 @@ TEST(ParallelTiming, StopsAtTheSamePlaceWhereTooMuchWaits) {
   expect_the_same(program + "X30\nM02\n", TimedMachine(), 40'000);
 }
 
+/// More spans than the planner looks at lie before and after many rests: from which on it plans must not depend on what
+/// was before them.
+TEST(ParallelTiming, GivesTheSameBitsWhereTheMachineCannotStopInSight) {
+  TimedMachine machine;
+  for (kinematics::AxisLimits& axis : machine.motion.axes) axis.acceleration = 100;
+  std::string program = "M06 T101001\nG00 X0 Y0 Z0\nG01 X0 F60000\n";
+  int x = 0;
+  for (int i = 0; i < 3'192; ++i) program += fmt::format("X{:.3f}\n", 0.001 * x++);
+  for (int y = 1; y <= 5'100; ++y) program += fmt::format("Y{:.3f}\n", 0.001 * y);
+  for (int i = 0; i < 140; ++i) program += "G04 P0.01\n";
+  for (int i = 0; i < 30'000; ++i) program += fmt::format("X{:.3f}\n", 0.001 * x++);
+  expect_the_same(program + "M02\n", machine, 60'000);
+}
+
+/// Such arcs become thousands of lines, which no part keeps.
+TEST(ParallelTiming, GivesTheSameBitsForArcsOfManyLines) {
+  TimedMachine machine;
+  machine.motion = kinematics::head_router();
+  std::string program = "M06 T101001\nG00 X2000 Y0 Z0\nG49\nG01 X2000 F100000\n";
+  for (int i = 0; i < 12; ++i)
+    program += fmt::format("G02 X2000 Y0 I0 J0\nG01 X{}\nG01 X2000\n{}", 2001 + i, i % 3 == 0 ? "G04 P1\n" : "");
+  expect_the_same(program + "M02\n", machine, 5'000);
+}
+
 TEST(ParallelTiming, TellsTheTipAtAToolChange) {
   TimedMachine machine;
   machine.home.tip.z() = 400;
