@@ -163,8 +163,14 @@ std::vector<RunFinding> RunFindings::marked(std::string_view text) const {
   const auto place = [](const RunFinding& each) {
     return std::tuple(each.line, each.finding.span.begin, each.finding.id, each.mistake);
   };
-  std::stable_sort(found.begin(), found.end(),
-                   [&](const RunFinding& a, const RunFinding& b) { return place(a) < place(b); });
+  // An F is judged as it is read, and where it counts by its time as its motion is made. Of both the greatest value
+  // stays: which one is told first depends on how far the run reads ahead.
+  const auto value = [](const RunFinding& each) {
+    return each.finding.id == "feed-above-machine"_diag ? each.finding.values[0] : 0;
+  };
+  std::stable_sort(found.begin(), found.end(), [&](const RunFinding& a, const RunFinding& b) {
+    return std::pair(place(a), value(b)) < std::pair(place(b), value(a));
+  });
   const auto is_same = [&](const RunFinding& a, const RunFinding& b) { return place(a) == place(b); };
   found.erase(std::unique(found.begin(), found.end(), is_same), found.end());
   return found;
