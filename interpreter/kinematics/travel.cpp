@@ -48,13 +48,16 @@ class MovePath {
     turned_[kC] = move.to.c - move.from.c;
   }
 
-  /// Position and slope of the joints.
-  ValueAndSlope<Coordinates> joints(double part) const {
+  Coordinates joints(double part) const {
+    Coordinates there = path_.path.at(part * path_.length).value;
+    if (is_arc()) there += part * turned_;
+    return path().is_of_joints ? there : inverse(machine_.kinematics, there, path().tool_length);
+  }
+  /// Position and slope of the joints, which takes several times as long.
+  ValueAndSlope<Coordinates> joints_place(double part) const {
     Jet there = path_.path.at(part * path_.length);
-    if (is_arc() && path_.length > 0) {
-      there.value += part * turned_;
-      there.first += turned_ / path_.length;
-    }
+    if (is_arc()) there.value += part * turned_;
+    if (is_arc() && path_.length > 0) there.first += turned_ / path_.length;
     if (!path().is_of_joints) there = inverse(machine_.kinematics, there, path().tool_length);
     return {there.value, there.first};
   }
@@ -160,7 +163,7 @@ static std::vector<Overtravel> beyond(const Machine& machine, const MovePath& pa
       const double limit = sign < 0 ? limits.minimum : limits.maximum;
       if (std::isinf(limit)) continue;
       const double part = find(axis, sign);
-      const double position = path.joints(part).value[axis];
+      const double position = path.joints(part)[axis];
       if (sign * (position - limit) > kTravelSlack)
         found.push_back({static_cast<MachineAxis>(axis), part, position, limit});
     }
@@ -171,10 +174,10 @@ static std::vector<Overtravel> beyond(const Machine& machine, const MovePath& pa
 std::vector<Overtravel> overtravels(const Machine& machine, const Move& move) {
   const MovePath path(machine, move);
   if (path.has_straight_joints()) {
-    const Coordinates change = path.joints(1).value - path.joints(0).value;
+    const Coordinates change = path.joints(1) - path.joints(0);
     return beyond(machine, path, [&](int axis, double sign) { return sign * change[axis] > 0 ? 1.0 : 0.0; });
   }
-  const auto at = [&](double part) { return path.joints(part); };
+  const auto at = [&](double part) { return path.joints_place(part); };
   const std::vector<ValueAndSlope<Coordinates>> grid = on_grid(path.grid(), at);
   return beyond(machine, path, [&](int axis, double sign) { return farthest(at, grid, axis, sign); });
 }
