@@ -23,7 +23,7 @@ ParallelTiming::ParallelTiming(const TimedMachine& machine, int jobs, TimingList
       jobs_(std::max(jobs, 1)),
       reader_(machine),
       times_(std::move(listeners), machine.home, 0),
-      planner_(machine.motion) {}
+      chain_(std::make_shared<Chain>(machine.motion, 0)) {}
 
 ParallelTiming::~ParallelTiming() {
   {
@@ -36,7 +36,7 @@ ParallelTiming::~ParallelTiming() {
 
 void ParallelTiming::complete_last() {
   const PlannedRequest request = planned_request(times_.last());
-  if (jobs_ == 1) return planner_.take(request, times_);
+  if (jobs_ == 1) return chain_->planner.take(request, times_);
   if (request.move != nullptr && kinematics::segment_count(machine_->motion, *request.move) > kMostSegments)
     return plan_alone(request);
   if (!filling_) filling_ = new_part(request.number);
@@ -95,7 +95,7 @@ void ParallelTiming::hand_over(std::size_t left) {
 void ParallelTiming::finish() {
   reader_.finish(*this);
   if (jobs_ == 1) {
-    planner_.finish(times_);
+    chain_->planner.finish(times_);
   } else {
     if (!filling_) filling_ = new_part(0);
     filling_->is_last = true;

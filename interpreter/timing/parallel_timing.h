@@ -97,7 +97,6 @@ class ParallelTiming : private RequestReader::Receiver {
   int jobs_;
   RequestReader reader_;
   EventTimes times_;
-  RequestPlanner planner_;    ///< Used while there are no other threads.
   bool has_started_ = false;  ///< Threads have been asked for; the system may have given none.
   bool has_ended_ = false;
   std::unique_ptr<PlannedPart> filling_;
