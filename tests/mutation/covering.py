@@ -3,13 +3,14 @@
 import collections
 import dataclasses
 import json
+import math
 import os
 import signal
 import subprocess
 import sys
 import tempfile
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 # Their own subject is the sources, or a build of them.
@@ -34,17 +35,18 @@ class Test:
 
 @dataclasses.dataclass
 class Outcome:
-    kind: str  # noticed, survived
+    kind: str = "untried"  # noticed, survived
     by: str = ""  # The tests that noticed, or timed out.
     reaching: int = 0
 
 
 def run(command, folder, environment, seconds, **variables):
-    """Whether a command ends with 0, or as skipped, within this time, and how long it took."""
+    """Whether a command ends with 0, or as skipped, and how long it took. Each of its processes may take this much processor time, so that a busy machine
+    changes no result, and all of it ten times as long, as a process may wait for ever."""
     begin = time.perf_counter()
     with tempfile.TemporaryDirectory() as temporary:
         process = subprocess.Popen(
-            ["prlimit", f"--as={MEMORY}", f"--fsize={MEMORY}", *command],
+            ["prlimit", f"--as={MEMORY}", f"--fsize={MEMORY}", f"--cpu={math.ceil(seconds)}", *command],
             cwd=folder,
             env={**os.environ, **dict(environment), "TMPDIR": temporary, **variables},
             stdin=subprocess.DEVNULL,
@@ -53,7 +55,7 @@ def run(command, folder, environment, seconds, **variables):
             start_new_session=True,
         )
         try:
-            passes = process.wait(seconds) in (0, 77)
+            passes = process.wait(10 * seconds) in (0, 77)
         except subprocess.TimeoutExpired:
             passes = False
         try:
@@ -158,12 +160,8 @@ def outcome_of(number, mutant, tests, seconds):
 
 
 def outcomes_of(mutants, tests, seconds, jobs):
-    """By number of mutant."""
+    """Each mutant with its outcome, as these become known."""
     with ThreadPoolExecutor(jobs) as pool:
-        started = {number: pool.submit(outcome_of, number, mutant, tests, seconds) for number, mutant in mutants.items()}
-        outcomes = {}
-        for number, future in started.items():
-            outcomes[number] = future.result()
-            if len(outcomes) % 50 == 0:
-                print(f"mutate: {len(outcomes)} of {len(mutants)} mutants", flush=True)
-    return outcomes
+        started = {pool.submit(outcome_of, number, mutant, tests, seconds): mutant for number, mutant in mutants.items()}
+        for future in as_completed(started):
+            yield started[future], future.result()

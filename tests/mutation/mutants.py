@@ -230,7 +230,10 @@ def those_that_compile(root, copy, mutants, compiler, jobs):
                 for number, mutant in those.items()
                 if not refused.intersection(range(mutant.line, mutant.line + mutant.original.count("\n") + 1))
             }
-            those = kept if len(kept) < len(those) else {}
+            if len(kept) == len(those):
+                print(f"mutate: {path} does not compile, so that none of its {len(those)} mutants is tried", file=sys.stderr)
+                kept = {}
+            those = kept
 
     with ThreadPoolExecutor(jobs) as pool:
         settled = list(pool.map(settle, by_file.items()))

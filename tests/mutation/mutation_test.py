@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Which small mistakes scripts/mutate finds in a source, and that each is there when it is switched on, and no other."""
 
+import contextlib
+import io
 import shutil
 import subprocess
 import sys
@@ -146,6 +148,17 @@ class Mutants(unittest.TestCase):
         chosen = [each for each in found if each.original[0] != "("]
         numbered = mutation.those_that_compile(self.root, self.copy, mutation.sample(chosen, 1000, 1), ["g++", "-std=c++20", f"-I{ROOT}"], 1)
         self.assertEqual({mutant.line for mutant in numbered.values()}, {4})
+
+    @unittest.skipIf(shutil.which("g++") is None, "there is no g++")
+    def test_of_a_source_that_does_not_compile_are_told(self):
+        (self.root / "a.cpp").write_text('int main(int count, char**) { return count - 1; }\n#include "missing.h"\n')
+        found = mutation.find(self.root, ["a.cpp"], ["-std=c++20"], 1)
+        self.assertTrue(found)
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            numbered = mutation.those_that_compile(self.root, self.copy, mutation.sample(found, 1000, 1), ["g++", "-std=c++20", f"-I{ROOT}"], 1)
+        self.assertEqual(numbered, {})
+        self.assertIn("a.cpp does not compile", said.getvalue())
 
 
 if __name__ == "__main__":
