@@ -214,6 +214,15 @@ TEST(Clearance, OfAMeshIsMeasuredAcrossItsEdges) {
     }
 }
 
+/// Of a pin that ends outside on both sides, the depth is that of its middle. It stands where edges of triangles cross,
+/// above and below: it is easily free of each of these.
+TEST(Clearance, OfAPinThroughAMeshIsThatOfItsMiddle) {
+  // A floor of 20 mm with a wall on one side.
+  const auto part = scenes::prism({{0, 0}, {200, 0}, {200, 20}, {40, 20}, {40, 100}, {0, 100}}, 200);
+  const RevolvedBody pin = body(flat_body(1, 72));
+  EXPECT_NEAR(clearance(pin, upright(1000.0 / 9, 1000.0 / 9, -50), *part).upper, -(20 - 22.0 / 2), 1e-4);
+}
+
 /// A mesh of a box is as far away as the box.
 TEST(Clearance, OfAMeshIsThatOfTheSolid) {
   for (const std::uint64_t seed : support::seeds(500)) {

@@ -19,6 +19,21 @@ using scenes::Vec3;
 
 const Cuboid kBrick{{-10, -20, -30}, {10, 20, 30}};
 
+TEST(Triangles, HaveTheirNearestPointInTheFaceOnAnEdgeOrAtACorner) {
+  const Triangle triangle{{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 3, 0)}};
+  const auto expect_nearest = [&](const Vec3& point, const Vec3& expected) {
+    EXPECT_LT((triangle.nearest(point) - expected).norm(), 1e-12) << point.transpose();
+  };
+  expect_nearest({1, 1, 5}, {1, 1, 0});
+  expect_nearest({2, -1, 1}, {2, 0, 0});
+  expect_nearest({-1, 1, -1}, {0, 1, 0});
+  // Across 3 x + 4 y = 12, whose normal is (3, 4) / 5.
+  expect_nearest({4, 3, 2}, Vec3(4, 3, 0) - 12.0 / 5 * Vec3(3, 4, 0) / 5);
+  expect_nearest({-2, -1, 3}, {0, 0, 0});
+  expect_nearest({9, -1, 0}, {4, 0, 0});
+  expect_nearest({-1, 8, 0}, {0, 3, 0});
+}
+
 TEST(MeshTopology, OfABoxIsClosedAndFacesOutwards) {
   const MeshTopology topology = topology_of(scenes::box_triangles(kBrick));
   EXPECT_TRUE(topology.is_closed());
