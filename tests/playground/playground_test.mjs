@@ -107,6 +107,23 @@ test('it opens from a disk and from a server, and shows what isolint finds', asy
   }
 });
 
+test('it says what is missing where its module does not come, or is cut off', async () => {
+  const context = await browser.newContext({ locale: 'en-US' });
+  const whole = readFileSync(join(web, 'playground/module.js'), 'utf8');
+  // The module is the longest text of its script.
+  const [module] = whole.match(/"[A-Za-z0-9+/=]{100000,}"/);
+  for (const [script, said] of [['', /module\.js/], [whole.replace(module, `${module.slice(0, 40001)}"`), /./]]) {
+    const page = await context.newPage();
+    page.setDefaultTimeout(patience);
+    await page.route('**/module.js', (route) => route.fulfill({ contentType: 'text/javascript', body: script }));
+    await page.goto(`${server.address}/playground/index.html`);
+    await page.locator('#findings[data-state=failed]').waitFor({ state: 'attached' });
+    assert.match(await page.locator('#findings-list').innerText(), said);
+    await page.close();
+  }
+  await context.close();
+});
+
 test('a slip is found while it is typed, at its line, and its fix takes it away', async () => {
   const page = await show(square);
   assert.equal(await page.locator('.finding').count(), 0);

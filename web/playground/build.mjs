@@ -31,11 +31,21 @@ await Promise.all([
 writeFileSync(join(target, 'playground.css'), Buffer.concat([readFileSync(join(target, 'playground.css')), readFileSync(join(target, 'own.css'))]));
 rmSync(join(target, 'own.css'));
 
-// A page from a disk may fetch nothing, so that the module is in a script. xz, which no browser unpacks of itself, saves 0.5 of
-// the 1.7 MB that gzip makes of it.
-const wasm = execFileSync('xz', ['-9e', '--threads=1', '--stdout', join(made, 'bin/playground.wasm')], { maxBuffer: 2 ** 28 }).toString('base64');
-const worker = readFileSync(join(made, 'bin/playground-worker.js'), 'utf8');
-writeFileSync(join(target, 'module.js'), `globalThis.isocncModule = ${JSON.stringify({ wasm, worker })};\n`);
+const [unpacker] = (await build({ ...common, entryPoints: ['src/unpacker.ts'], format: 'iife', legalComments: 'inline', write: false })).outputFiles;
+const contents = {
+  // xz, which no browser unpacks of itself, saves 0.5 of the 1.7 MB that gzip makes of it.
+  module: { contents: execFileSync('xz', ['-9e', '--threads=1', '--stdout', join(made, 'bin/playground.wasm')], { maxBuffer: 2 ** 28 }), loader: 'binary' },
+  unpacker: { contents: unpacker.contents, loader: 'text' },
+  worker: { contents: readFileSync(join(made, 'bin/playground-worker.js')), loader: 'text' },
+};
+const embedded = {
+  name: 'embedded',
+  setup(bundle) {
+    bundle.onResolve({ filter: /^embedded:/ }, ({ path }) => ({ path: path.replace('embedded:', ''), namespace: 'embedded' }));
+    bundle.onLoad({ filter: /./, namespace: 'embedded' }, ({ path }) => contents[path]);
+  },
+};
+await build({ ...common, entryPoints: ['src/module.ts'], outfile: join(target, 'module.js'), format: 'iife', plugins: [embedded] });
 
 // The parts of the view's page that this one has, too.
 const view = readFileSync(join(root, 'toolpath-view/src/page.html'), 'utf8');

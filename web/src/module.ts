@@ -46,7 +46,9 @@ export interface Module {
 }
 
 export interface ModuleOptions {
-  wasmBinary: ArrayBuffer | Uint8Array;
+  wasmBinary?: ArrayBuffer | Uint8Array;
+  /** Makes an instance of a module that is compiled already, instead of `wasmBinary`, and hands it to `receive`. */
+  instantiateWasm?: (imports: WebAssembly.Imports, receive: (instance: WebAssembly.Instance) => void) => object;
   /** Whether a standard stream is a terminal; otherwise none is. */
   isTerminal?: (descriptor: number) => boolean;
   preRun?: ((module: Module) => void)[];

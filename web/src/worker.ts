@@ -5,13 +5,13 @@
  */
 import { Conversation } from './conversation';
 import makeModule from './glue';
-import type { Module, Program, Server } from './module';
+import type { Module, ModuleOptions, Program, Server } from './module';
 import { filesIn, runOnText, type Outcome } from './streams';
 
 export interface Start {
   server: Server;
-  /** The content of isocnc.wasm, or where it is. */
-  wasm: ArrayBuffer | string;
+  /** The content of isocnc.wasm, where it is, or what has been compiled of it. */
+  wasm: ArrayBuffer | string | WebAssembly.Module;
   /** en, it, or empty for what the client asks for. */
   language?: string;
 }
@@ -69,9 +69,23 @@ function answer(module: Module, { run, program, args, text, folder }: Command): 
 
 const isMessageWith = (member: string, data: unknown) => typeof data === 'object' && data !== null && member in data;
 
+function instanceOf(compiled: WebAssembly.Module): Promise<Module> {
+  return new Promise((resolve, reject) => {
+    const instantiateWasm: ModuleOptions['instantiateWasm'] = (imports, receive) => {
+      WebAssembly.instantiate(compiled, imports).then(receive).catch(reject);
+      return {};
+    };
+    makeModule({ instantiateWasm }).then(resolve, reject);
+  });
+}
+
+async function moduleOf(wasm: Start['wasm']): Promise<Module> {
+  if (wasm instanceof WebAssembly.Module) return instanceOf(wasm);
+  return makeModule({ wasmBinary: typeof wasm === 'string' ? await (await fetch(wasm)).arrayBuffer() : wasm });
+}
+
 async function start({ server, wasm, language }: Start): Promise<(data: unknown) => void> {
-  const wasmBinary = typeof wasm === 'string' ? await (await fetch(wasm)).arrayBuffer() : wasm;
-  const module = await makeModule({ wasmBinary });
+  const module = await moduleOf(wasm);
   const conversation = new Conversation(
     module,
     server,

@@ -1,34 +1,7 @@
 /** The WebAssembly module in a worker, with one of its servers. */
-import { XzReadableStream } from 'xz-decompress';
 import type { Outcome } from '../../src/streams';
 import type { Changes, Command, Start } from '../../src/worker';
-
-/** What module.js leaves on the page: a page from a disk may fetch nothing, but it may have scripts. */
-interface Embedded {
-  /** playground.wasm, compressed with xz, in base64. */
-  wasm: string;
-  /** The script of the worker. */
-  worker: string;
-}
-
-declare global {
-  var isocncModule: Embedded | undefined;
-}
-
-let unpacked: Promise<ArrayBuffer> | undefined;
-
-async function unpack(base64: string): Promise<ArrayBuffer> {
-  const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-  return new Response(new XzReadableStream(new Blob([bytes]).stream())).arrayBuffer();
-}
-
-/** The scripts of the page have run when all of it has been read. */
-async function embedded(): Promise<Embedded> {
-  if (!globalThis.isocncModule && document.readyState !== 'complete')
-    await new Promise((resolve) => window.addEventListener('load', resolve, { once: true }));
-  if (!globalThis.isocncModule) throw new Error('module.js');
-  return globalThis.isocncModule;
-}
+import type {} from './module';
 
 export class ModuleWorker {
   /** Gets the server's messages. */
@@ -41,11 +14,11 @@ export class ModuleWorker {
   private last = 0;
 
   static async start(server: Start['server'], language: string): Promise<ModuleWorker> {
-    const { wasm, worker } = await embedded();
-    unpacked ??= unpack(wasm);
-    const url = URL.createObjectURL(new Blob([worker], { type: 'text/javascript' }));
-    const made = new ModuleWorker(new Worker(url));
-    made.post({ server, wasm: await unpacked, language } satisfies Start);
+    if (!globalThis.isocncModule) throw new Error('module.js');
+    const { compiled, makeWorker } = globalThis.isocncModule;
+    const wasm = await compiled;
+    const made = new ModuleWorker(makeWorker());
+    made.post({ server, wasm, language } satisfies Start);
     return made;
   }
 
