@@ -13,24 +13,22 @@ import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-# Their own subject is the sources, or a build of them.
-LEFT_OUT = {"release", "packages", "reproducible", "architecture", "documentation", "manifold", "pipelines"}
+LEFT_OUT = "architecture_tests"  # Their own subject is the sources.
 MEMORY = 8 << 30  # Bytes: a mutant may go on for ever.
 FILTER_BYTES = 100_000  # A variable of the environment holds 128 KiB at most.
 
 
 @dataclasses.dataclass(frozen=True)
 class Test:
-    """A case of GoogleTest, or a whole test of CTest."""
+    """A case of GoogleTest. Tests that are no program of GoogleTest take minutes each, and few mutants are noticed by these alone."""
 
-    command: tuple
+    program: str
     folder: str
-    environment: tuple
-    case: str = ""  # Of GoogleTest.
+    case: str
 
     @property
     def name(self):
-        return f"{Path(self.command[0]).name} {self.case}".strip() if self.case else " ".join(self.command)
+        return f"{Path(self.program).name} {self.case}"
 
 
 @dataclasses.dataclass
@@ -40,15 +38,15 @@ class Outcome:
     reaching: int = 0
 
 
-def run(command, folder, environment, seconds, **variables):
-    """Whether a command ends with 0, or as skipped, and how long it took. Each of its processes may take this much processor time, so that a busy machine
+def run(program, folder, seconds, **variables):
+    """Whether a program ends with 0, or as skipped, and how long it took. Each of its processes may take this much processor time, so that a busy machine
     changes no result, and all of it ten times as long, as a process may wait for ever."""
     begin = time.perf_counter()
     with tempfile.TemporaryDirectory() as temporary:
         process = subprocess.Popen(
-            ["prlimit", f"--as={MEMORY}", f"--fsize={MEMORY}", f"--cpu={math.ceil(seconds)}", *command],
+            ["prlimit", f"--as={MEMORY}", f"--fsize={MEMORY}", f"--cpu={math.ceil(seconds)}", program],
             cwd=folder,
-            env={**os.environ, **dict(environment), "TMPDIR": temporary, **variables},
+            env={**os.environ, "TMPDIR": temporary, **variables},
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -87,22 +85,15 @@ class Tests:
     @staticmethod
     def all_of(build, programs):
         listed = subprocess.run(["ctest", "--show-only=json-v1"], cwd=build, capture_output=True, text=True, check=True).stdout
-        seen = set()
+        found = {}
         for entry in json.loads(listed)["tests"]:
-            name = entry["name"].split(".", 1)[0]
             properties = {each["name"]: each["value"] for each in entry["properties"]}
-            if name in LEFT_OUT or "command" not in entry or properties.get("DISABLED"):
-                continue
-            environment = [tuple(each.split("=", 1)) for each in properties.get("ENVIRONMENT", [])]
-            folder = properties["WORKING_DIRECTORY"]
-            command = tuple(entry["command"])
-            if programs and Path(command[0]).name not in programs:
-                continue
-            if not command[0].endswith("_tests"):
-                yield Test(command, folder, tuple(environment))
-            elif command[0] not in seen:
-                seen.add(command[0])
-                yield from Tests.cases_of(command[0], folder)
+            if "command" in entry and not properties.get("DISABLED"):
+                found[entry["command"][0]] = properties["WORKING_DIRECTORY"]
+        for program, folder in found.items():
+            name = Path(program).name
+            if name.endswith("_tests") and name != LEFT_OUT and (not programs or name in programs):
+                yield from Tests.cases_of(program, folder)
 
     @staticmethod
     def cases_of(program, folder):
@@ -113,27 +104,26 @@ class Tests:
             if not line.startswith(" "):
                 suite = name if name.endswith(".") else ""
             elif suite and "DISABLED_" not in name:
-                yield Test((program,), folder, (), suite + name.strip())
+                yield Test(program, folder, suite + name.strip())
 
     @staticmethod
     def look_at(test, mutant_count):
         with tempfile.NamedTemporaryFile() as file:
             file.truncate(mutant_count)
-            variables = {"GTEST_FILTER": test.case} if test.case else {}
-            passes, seconds = run(test.command, test.folder, test.environment, 900, ISOCNC_REACHED=file.name, **variables)
+            passes, seconds = run(test.program, test.folder, 900, ISOCNC_REACHED=file.name, GTEST_FILTER=test.case)
             reached = [number for number, byte in enumerate(Path(file.name).read_bytes()) if byte]
         return test, passes, seconds, reached
 
 
 def runs_of(tests, seconds_of, module, seconds):
-    """The tests as commands with their variables, expected time and names: those of the module first, then those that take least; all cases of a
-    program in one process, as far as the time goes."""
+    """The tests as lists of cases of one program, and the time that these take: those of the module first, then those that take least, as far as the
+    time goes."""
     by_program = collections.defaultdict(list)
     for test in tests:
-        by_program[test.command if test.case else test].append(test)
+        by_program[test.program].append(test)
 
     def rank(those):
-        is_own = Path(those[0].command[0]).name.startswith(f"{module}_")
+        is_own = Path(those[0].program).name.startswith(f"{module}_")
         return not is_own, sum(seconds_of[test] for test in those)
 
     left = seconds
@@ -145,17 +135,18 @@ def runs_of(tests, seconds_of, module, seconds):
             left -= seconds_of[test]
             chosen.append(test)
         if chosen:
-            variables = {"GTEST_FILTER": ":".join(test.case for test in chosen), "GTEST_FAIL_FAST": "1"} if chosen[0].case else {}
-            yield chosen[0], variables, sum(seconds_of[test] for test in chosen), Path(chosen[0].command[0]).name
+            yield chosen, sum(seconds_of[test] for test in chosen)
 
 
 def outcome_of(number, mutant, tests, seconds):
     reaching = tests.reaching.get(number, [])
     module = Path(mutant.path).parent.name
-    for test, variables, expected, name in runs_of(reaching, tests.seconds, module, seconds):
-        passes, _ = run(test.command, test.folder, test.environment, 10 + 5 * expected, ISOCNC_MUTANT=str(number), **variables)
+    for chosen, expected in runs_of(reaching, tests.seconds, module, seconds):
+        cases = ":".join(test.case for test in chosen)
+        variables = {"ISOCNC_MUTANT": str(number), "GTEST_FILTER": cases, "GTEST_FAIL_FAST": "1"}
+        passes, _ = run(chosen[0].program, chosen[0].folder, 10 + 5 * expected, **variables)
         if not passes:
-            return Outcome("noticed", name, len(reaching))
+            return Outcome("noticed", Path(chosen[0].program).name, len(reaching))
     return Outcome("survived", "", len(reaching))
 
 
