@@ -225,5 +225,24 @@ TEST(SurelyFits, KnowsArcsThatLieOnTheirCircle) {
   }
 }
 
+/// Arcs about a center that is as far from the end as from the start, but for up to twice of what "nearly" allows.
+TEST(SurelyAbsolute, IsNeverWrongAndKnowsWhatDoesNotNearlyFit) {
+  constexpr double kNearly = CenterReadings::kNearly * kTolerance;
+  for (const std::uint64_t seed : support::seeds(20'000)) {
+    Random random(seed);
+    const KnownArc arc = random_arc(random, 359);
+    const PlanePoint start{random.real(-500, 500), random.real(-500, 500)};
+    const double part = 1 + random.real(-2, 2) * kNearly / arc.radius;
+    const PlanePoint from_center = arc.end - arc.center;
+    const PlanePoint end{arc.center.u + part * from_center.u, arc.center.v + part * from_center.v};
+    ArcGiven given{.end = end, .center_u = arc.center.u - start.u, .center_v = arc.center.v - start.v};
+    const double misfit = std::abs(part - 1) * arc.radius;
+    const bool is_sure = surely_absolute(given, start, kTolerance);
+    EXPECT_TRUE(is_sure ? misfit > 0.999 * kNearly : misfit < 1.415 * kNearly) << "seed " << seed;
+    given.center_v.reset();
+    EXPECT_FALSE(surely_absolute(given, start, kTolerance)) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace isocnc::geometry
