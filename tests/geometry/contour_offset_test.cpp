@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -91,6 +92,19 @@ TEST(ContourOffset, LeavesOutWhatItCannotReach) {
   ASSERT_EQ(reduced.pieces.size(), 5u);
   EXPECT_NEAR(reduced.pieces[2].curve.end.x(), 3, 1e-9);
   EXPECT_NEAR(reduced.pieces[2].curve.end.y(), 4, 1e-9);
+}
+
+/// Pieces wait until no loop can reach back to them, also where many have been emitted already.
+TEST(ContourOffset, LeavesOutWhatItCannotReachLateInAContour) {
+  std::vector<PlaneCurve> contour;
+  for (int x = -150; x < -50; ++x) contour.push_back(line({x, 0}, {x + 1, 0}));
+  contour.insert(contour.end(), kSlot.begin(), kSlot.end());
+  const Offset reduced = offset(contour, {-150, 10}, {.radius = 5, .reduces = true});
+  EXPECT_THAT(reduced.gouges, IsEmpty());
+  std::vector<std::uint64_t> expected(102);  // The lead-in, and all before the slot.
+  std::iota(expected.begin(), expected.end(), 0);
+  expected.push_back(105);
+  EXPECT_EQ(tags(reduced), expected);
 }
 
 TEST(ContourOffset, LeavesOutAnInsideArcThatIsTooSmall) {
