@@ -214,6 +214,26 @@ TEST_P(RandomMoves, HaveTheirStretchesInOrderAndEndWhereProgrammed) {
   });
 }
 
+std::vector<kinematics::Move> way_back(const std::vector<kinematics::Move>& moves) {
+  std::vector<kinematics::Move> back(moves.rbegin(), moves.rend());
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    std::swap(back[i].from, back[i].to);
+    back[i].sweep_deg = -back[i].sweep_deg;
+    back[i].exact_stop = i + 1 < back.size() && back[i + 1].exact_stop;  // Where the move before had stopped.
+    back[i].tag = i;
+  }
+  return back;
+}
+
+/// All limits hold in both directions. Arcs are planned in pieces, which lets the ways differ a little.
+TEST_P(RandomMoves, TakeAsLongOnTheWayBack) {
+  if (limits_jerk()) return;  // The first moves decide how all are smoothed.
+  for_programs([&](const std::vector<kinematics::Move>& moves, const std::vector<Stretch>& stretches) {
+    const double there = cycle_time(stretches);
+    ASSERT_NEAR(cycle_time(plan(machine(), way_back(moves))), there, 5e-4 * there);
+  });
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Machines, RandomMoves,
     testing::Values(Case{"ThreeAxis", kinematics::three_axis_router()}, Case{"Head", kinematics::head_router()},
