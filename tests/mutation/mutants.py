@@ -28,6 +28,8 @@ NUMBERS = {
     TypeKind.BOOL, TypeKind.CHAR_U, TypeKind.UCHAR, TypeKind.USHORT, TypeKind.UINT, TypeKind.ULONG, TypeKind.ULONGLONG, TypeKind.CHAR_S,
     TypeKind.SCHAR, TypeKind.SHORT, TypeKind.INT, TypeKind.LONG, TypeKind.LONGLONG, TypeKind.FLOAT, TypeKind.DOUBLE, TypeKind.LONGDOUBLE,
 }  # fmt: skip
+REALS = {TypeKind.FLOAT, TypeKind.DOUBLE, TypeKind.LONGDOUBLE}
+LIMITS = {"<", "<=", ">", ">="}
 # What the compiler evaluates, or what is no code.
 CONSTANT = {
     Kind.STATIC_ASSERT, Kind.ENUM_CONSTANT_DECL, Kind.CASE_STMT, Kind.TEMPLATE_NON_TYPE_PARAMETER, Kind.ALIGNED_ATTR,
@@ -53,6 +55,8 @@ class Mutant:
     end: int
     original: str
     changed: str
+    # Whether only the limit itself changes sides, between numbers that are equal by chance alone.
+    is_limit_of_reals: bool = dataclasses.field(default=False, compare=False)
 
     def __str__(self):
         def short(text):
@@ -110,7 +114,7 @@ class Finder:
             return None
         return begin.offset, end.offset
 
-    def add(self, begin, end, changed):
+    def add(self, begin, end, changed, is_limit_of_reals=False):
         before = self.source[:begin]
         self.found.append(
             Mutant(
@@ -121,6 +125,7 @@ class Finder:
                 end=end,
                 original=self.text(begin, end),
                 changed=changed,
+                is_limit_of_reals=is_limit_of_reals,
             )
         )
 
@@ -172,7 +177,9 @@ class Finder:
         between = self.text(left[1], right[0])
         operator = between.strip()
         if operator in OPERATORS:
-            self.add(begin, end, self.text(*left) + between.replace(operator, OPERATORS[operator]) + self.text(*right))
+            are_real = any(child.type.get_canonical().kind in REALS for child in children)
+            changed = self.text(*left) + between.replace(operator, OPERATORS[operator]) + self.text(*right)
+            self.add(begin, end, changed, are_real and operator in LIMITS)
 
 
 def mutants_of(root, path, arguments):

@@ -95,6 +95,9 @@ class Mutants(unittest.TestCase):
     def test_are_what_could_be_a_slip(self):
         self.assertEqual([text_of(each) for each in self.found], FOUND)
 
+    def test_of_limits_of_real_numbers_are_known(self):
+        self.assertEqual([text_of(each) for each in self.found if each.is_limit_of_reals], ["26:25: `sum > 2 * kSize` becomes `sum >= 2 * kSize`"])
+
     def test_of_a_sample_do_not_overlap(self):
         some = mutation.sample(self.found, 1000, 7)
         self.assertGreater(len(some), 8)
