@@ -144,7 +144,7 @@ def outcome_of(number, mutant, tests, seconds):
     for chosen, expected in runs_of(reaching, tests.seconds, module, seconds):
         cases = ":".join(test.case for test in chosen)
         variables = {"ISOCNC_MUTANT": str(number), "GTEST_FILTER": cases, "GTEST_FAIL_FAST": "1"}
-        passes, _ = run(chosen[0].program, chosen[0].folder, 10 + 5 * expected, **variables)
+        passes, _ = run(chosen[0].program, chosen[0].folder, 10 + 2 * expected, **variables)
         if not passes:
             return Outcome("noticed", Path(chosen[0].program).name, len(reaching))
     return Outcome("survived", "", len(reaching))
