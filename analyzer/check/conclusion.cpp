@@ -123,16 +123,6 @@ static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
   }
 }
 
-/// Whether a finding assumes that all ways to its line are known: W116, W117, and what is said of the spindle only
-/// where it is so on every path. After a jump that may lead anywhere, no such finding is made.
-static bool assumes_all_paths(dialect::DiagnosticId id) {
-  static constexpr dialect::DiagnosticId kAll[] = {"never-runs"_diag,           "condition-decided"_diag,
-                                                   "spindle-stopped-feed"_diag, "spindle-reversed"_diag,
-                                                   "spindle-started-late"_diag, "tool-change-with-spindle-on"_diag,
-                                                   "end-with-spindle-on"_diag};
-  return std::find(std::begin(kAll), std::end(kAll), id) != std::end(kAll);
-}
-
 static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
   return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
 }
@@ -160,9 +150,11 @@ static void put_in_order(Report& report, const std::vector<Decisions>& paths, co
 
 /// Whether a finding says that a label is missing (E004) that has been misspelled, which has been reported there.
 /// `misspelled` is sorted.
+static bool is_reported_at_label(dialect::DiagnosticId id, double label, const std::vector<double>& misspelled) {
+  return id == "label-not-found"_diag && std::binary_search(misspelled.begin(), misspelled.end(), label);
+}
 static bool is_reported_at_label(const Finding& finding, const std::vector<double>& misspelled) {
-  return finding.id == "label-not-found"_diag &&
-         std::binary_search(misspelled.begin(), misspelled.end(), finding.values[0]);
+  return is_reported_at_label(finding.id, finding.values[0], misspelled);
 }
 
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
@@ -174,7 +166,8 @@ Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
            is_reported_at_label(located.finding, outcome.misspelled_labels);
   });
   mistakes.start(outcome);
-  for (LocatedFinding& located : outcome.findings) mistakes.number(located);
+  for (LocatedFinding& located : outcome.findings)
+    located.mistake = mistakes.number(located.line, located.finding.id, located.path);
   std::vector<Decisions> paths = std::move(outcome.paths);
   std::vector<LocatedFinding> findings = std::move(outcome.findings);
   add_findings_of_whole({{&outcome, 0}}, end, jumps, text_of_line, paths, findings);
@@ -196,40 +189,17 @@ class ExcerptCollector {
   /// The line after the last finding taken.
   std::size_t end() const { return end_; }
 
-  /// Whether findings of a code must be looked at one by one, and not only be counted.
-  static bool needs_look(dialect::DiagnosticId id) {
-    return dialect::definition(id).folds != dialect::FoldKind::None || assumes_all_paths(id) ||
-           id == "label-not-found"_diag;
-  }
-
   /// Takes the findings of an outcome; all outcomes must come, in their order. Once there are enough, takes
   /// repetitions only, and counts the other findings that need a look.
   void take(const PlacedOutcome& placed) {
-    const bool had_enough = has_enough();
-    const auto first_path = static_cast<std::int32_t>(paths.size());
-    const auto& tally = placed.outcome->tally;
-    const auto needs_a_look = [](const auto& counted) { return needs_look(counted.first); };
     mistakes_.start(*placed.outcome);
-    if (!had_enough || std::any_of(tally.begin(), tally.end(), needs_a_look)) {
-      for (LocatedFinding located : placed.outcome->findings) {
-        const bool may_run = leads_anywhere_ || located.line > placed.outcome->leads_anywhere_from;
-        if (assumes_all_paths(located.finding.id) && may_run) continue;
-        if (is_reported_at_label(located.finding, misspelled_labels)) continue;
-        mistakes_.number(located);
-        located.line += placed.first_line;
-        if (had_enough) {
-          if (needs_look(located.finding.id) && !is_repetition(located, Folder::kLeftOut)) count(located.finding.id);
-          continue;
-        }
-        if (located.path >= 0) located.path += first_path;
-        if (!is_repetition(located, findings().size())) take(located);
-      }
+    if (has_enough()) {
+      for (const Outcome::Look& look : placed.outcome->looks) take(look, placed);
+    } else {
+      take_findings(placed);
     }
     mistakes_.finish();
     leads_anywhere_ |= placed.outcome->leads_anywhere_from != Outcome::kNowhere;
-    if (had_enough) return;
-    const std::vector<Decisions>& theirs = placed.outcome->paths;
-    paths.insert(paths.end(), theirs.begin(), theirs.end());
   }
   void take(const LocatedFinding& located) {
     findings().push_back(located);
@@ -257,10 +227,35 @@ class ExcerptCollector {
       if (kReportedOnce[i] == id && std::exchange(reported_[i], true)) return false;
     return severity(id).has_value();
   }
-  bool is_repetition(const LocatedFinding& located, std::size_t index) {
-    if (!options_.folds || located.mistake < 0) return false;
-    const std::optional<dialect::Severity> shown = severity(located.finding.id);
-    return shown && folder_.fold(located, *shown, index);
+  bool is_repetition(std::int32_t mistake, const Repetition& repetition, std::size_t index) {
+    if (!options_.folds || mistake < 0) return false;
+    const std::optional<dialect::Severity> shown = severity(repetition.id);
+    return shown && folder_.fold(mistake, repetition, *shown, index);
+  }
+  /// Whether a finding does not count: after a jump that may lead anywhere, or because its label is misspelled.
+  bool is_void(dialect::DiagnosticId id, std::size_t line, double label, const Outcome& outcome) const {
+    const bool may_run = leads_anywhere_ || line > outcome.leads_anywhere_from;
+    return (may_run && assumes_all_paths(id)) || is_reported_at_label(id, label, misspelled_labels);
+  }
+
+  void take_findings(const PlacedOutcome& placed) {
+    const Outcome& outcome = *placed.outcome;
+    const auto first_path = static_cast<std::int32_t>(paths.size());
+    for (LocatedFinding located : outcome.findings) {
+      const dialect::DiagnosticId id = located.finding.id;
+      if (is_void(id, located.line, located.finding.values[0], outcome)) continue;
+      located.mistake = mistakes_.number(located.line, id, located.path);
+      located.line += placed.first_line;
+      if (located.path >= 0) located.path += first_path;
+      if (!is_repetition(located.mistake, {located.line, id, located.finding.span}, findings().size())) take(located);
+    }
+    paths.insert(paths.end(), outcome.paths.begin(), outcome.paths.end());
+  }
+
+  void take(const Outcome::Look& look, const PlacedOutcome& placed) {
+    if (is_void(look.id, look.line, look.label, *placed.outcome)) return;
+    const std::int32_t mistake = mistakes_.number(look.line, look.id, look.path);
+    if (!is_repetition(mistake, {look.line + placed.first_line, look.id, look.span}, Folder::kLeftOut)) count(look.id);
   }
 
   const FirstFindingsOptions& options_;
@@ -283,7 +278,7 @@ FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Finding
   for (const PlacedOutcome& placed : outcomes)
     collector.misspelled_labels.insert(collector.misspelled_labels.end(), placed.outcome->misspelled_labels.begin(),
                                        placed.outcome->misspelled_labels.end());
-  std::sort(collector.misspelled_labels.begin(), collector.misspelled_labels.end());
+  sort_once(collector.misspelled_labels);
   FindingCounts left = counts;
   bool has_all = true;
   for (const PlacedOutcome& placed : outcomes) {
@@ -293,7 +288,7 @@ FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Finding
   }
   for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
     const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
-    if (left.of(id) > 0 && !ExcerptCollector::needs_look(id)) collector.count(id, left.of(id));
+    if (left.of(id) > 0 && !needs_look(id)) collector.count(id, left.of(id));
   }
   std::vector<LocatedFinding> of_whole;
   add_findings_of_whole(outcomes, end, jumps, text_of_line, collector.paths, of_whole);

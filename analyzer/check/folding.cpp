@@ -26,32 +26,31 @@ void MistakeNumbers::end_folds_up_to(std::size_t line) {
 
 void MistakeNumbers::finish() { end_folds_up_to(std::numeric_limits<std::size_t>::max()); }
 
-void MistakeNumbers::number(LocatedFinding& located) {
+std::int32_t MistakeNumbers::number(std::size_t line, dialect::DiagnosticId id, std::int32_t path_index) {
   static const Decisions kEveryPath;
-  const FoldKind fold = dialect::definition(located.finding.id).folds;
-  if (fold == FoldKind::None) return;
-  end_folds_up_to(located.line);
-  const Decisions& path = located.path < 0 ? kEveryPath : outcome_->paths[static_cast<std::size_t>(located.path)];
+  const FoldKind fold = dialect::definition(id).folds;
+  if (fold == FoldKind::None) return -1;
+  end_folds_up_to(line);
+  const Decisions& path = path_index < 0 ? kEveryPath : outcome_->paths[static_cast<std::size_t>(path_index)];
   std::vector<Open>& open = open_[static_cast<std::size_t>(fold)];
   const auto known = std::find_if(open.begin(), open.end(), [&](const Open& each) { return each.path == path; });
   if (known == open.end()) {
     if (open.size() == kMaxOpen) open.erase(open.begin());
-    open.push_back({path, count_, located.line, outcome_});
-    located.mistake = count_++;
-    return;
+    open.push_back({path, count_, line, outcome_});
+    return count_++;
   }
   // A second finding on a line stands for itself: what repeats is counted in lines.
-  if (known->outcome == outcome_ && known->line == located.line) return;
-  known->line = located.line;
+  if (known->outcome == outcome_ && known->line == line) return -1;
+  known->line = line;
   known->outcome = outcome_;
-  located.mistake = known->number;
+  return known->number;
 }
 
-bool Folder::fold(const LocatedFinding& located, dialect::Severity severity, std::size_t index) {
-  if (located.mistake < 0) return false;
-  const auto mistake = static_cast<std::size_t>(located.mistake);
-  if (mistake >= firsts_.size()) firsts_.resize(mistake + 1, {kNone, kNone, kNone});
-  std::size_t& known = firsts_[mistake][static_cast<std::size_t>(severity)];
+bool Folder::fold(std::int32_t mistake, const Repetition& repetition, dialect::Severity severity, std::size_t index) {
+  if (mistake < 0) return false;
+  const auto number = static_cast<std::size_t>(mistake);
+  if (number >= firsts_.size()) firsts_.resize(number + 1, {kNone, kNone, kNone});
+  std::size_t& known = firsts_[number][static_cast<std::size_t>(severity)];
   if (known == kNone) {
     known = index;
     return false;
@@ -62,8 +61,7 @@ bool Folder::fold(const LocatedFinding& located, dialect::Severity severity, std
     first.repetitions = static_cast<std::int32_t>(report_.repetitions.size());
     report_.repetitions.emplace_back();
   }
-  report_.repetitions[static_cast<std::size_t>(first.repetitions)].push_back(
-      {located.line, located.finding.id, located.finding.span});
+  report_.repetitions[static_cast<std::size_t>(first.repetitions)].push_back(repetition);
   return true;
 }
 

@@ -26,8 +26,8 @@ class MistakeNumbers {
  public:
   /// The next outcome; number() follows for each of its findings, then finish().
   void start(const Outcome& outcome);
-  /// `located` has the line and the path that it has in the outcome.
-  void number(LocatedFinding& located);
+  /// The number of the mistake behind a finding with this line and path in the outcome; -1 if it stands for itself.
+  std::int32_t number(std::size_t line, dialect::DiagnosticId id, std::int32_t path);
   void finish();
 
  private:
@@ -57,7 +57,11 @@ class Folder {
 
   /// Returns whether the finding repeats one before it. Otherwise the caller keeps it as `report.findings[index]`, or
   /// nowhere, with kLeftOut. Must be called in the order of the lines.
-  bool fold(const LocatedFinding& located, dialect::Severity severity, std::size_t index);
+  bool fold(const LocatedFinding& located, dialect::Severity severity, std::size_t index) {
+    return fold(located.mistake, {located.line, located.finding.id, located.finding.span}, severity, index);
+  }
+  /// The same for a finding of this mistake, which would be this repetition.
+  bool fold(std::int32_t mistake, const Repetition& repetition, dialect::Severity severity, std::size_t index);
 
  private:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();

@@ -1,8 +1,35 @@
 #include "analyzer/check/outcome.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "interpreter/dialect/diagnostic_id.h"
 
 namespace isocnc::check {
+
+using namespace dialect::literals;
+
+bool assumes_all_paths(dialect::DiagnosticId id) {
+  static constexpr dialect::DiagnosticId kAll[] = {"never-runs"_diag,           "condition-decided"_diag,
+                                                   "spindle-stopped-feed"_diag, "spindle-reversed"_diag,
+                                                   "spindle-started-late"_diag, "tool-change-with-spindle-on"_diag,
+                                                   "end-with-spindle-on"_diag};
+  return std::find(std::begin(kAll), std::end(kAll), id) != std::end(kAll);
+}
+
+bool needs_look(dialect::DiagnosticId id) {
+  static const std::array<bool, dialect::kDiagnosticCount> kNeedsLook = [] {
+    std::array<bool, dialect::kDiagnosticCount> needs{};
+    for (std::size_t i = 0; i < needs.size(); ++i) {
+      const dialect::DiagnosticId each{static_cast<std::uint8_t>(i)};
+      needs[i] = dialect::definition(each).folds != dialect::FoldKind::None || assumes_all_paths(each) ||
+                 each == "label-not-found"_diag;
+    }
+    return needs;
+  }();
+  return kNeedsLook[static_cast<std::size_t>(id)];
+}
 
 void Outcome::clear() { *this = Outcome{}; }
 
@@ -18,9 +45,20 @@ void Outcome::end_folds(FoldSet folds, std::size_t line) {
   ended_folds |= ending;
 }
 
+static Outcome::Look look_at(const LocatedFinding& located) {
+  return {.line = static_cast<std::uint32_t>(located.line),
+          .path = located.path,
+          .span = located.finding.span,
+          .id = located.finding.id,
+          .label = located.finding.id == "label-not-found"_diag ? located.finding.values[0] : 0};
+}
+
 void Outcome::count() {
   tally.clear();
+  looks.clear();
+  sort_once(misspelled_labels);
   for (const LocatedFinding& located : findings) {
+    if (needs_look(located.finding.id)) looks.push_back(look_at(located));
     const auto same = [&](const auto& counted) { return counted.first == located.finding.id; };
     const auto known = std::find_if(tally.begin(), tally.end(), same);
     if (known == tally.end()) {
@@ -29,6 +67,7 @@ void Outcome::count() {
       ++known->second;
     }
   }
+  looks.shrink_to_fit();
 }
 
 void FindingCounts::add(const Outcome& outcome) {

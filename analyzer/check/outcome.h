@@ -45,6 +45,15 @@ struct Outcome {
     FoldSet folds = 0;
   };
 
+  /// A finding of which it depends on other lines whether it counts (needs_look()), in few bytes.
+  struct Look {
+    std::uint32_t line = 0;
+    std::int32_t path = LocatedFinding::kEveryPath;
+    syntax::Span span;
+    dialect::DiagnosticId id = dialect::kNoDiagnostic;
+    double label = 0;  ///< The label not found, of E004.
+  };
+
   static constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 
   std::vector<LocatedFinding> findings;  ///< The findings, in the order of the lines.
@@ -65,13 +74,21 @@ struct Outcome {
   std::vector<FoldEnd> fold_ends;
   FoldSet ended_folds = 0;  ///< Folds without a finding since they were last ended.
   std::vector<std::pair<dialect::DiagnosticId, std::size_t>> tally;  ///< Findings of each kind, after count().
+  std::vector<Look> looks;                                           ///< After count(), in the order of `findings`.
 
   void clear();
+  /// Sums up the findings, so that those after an excerpt need not all be gone through.
   void count();
   /// Appends a finding that may belong to a fold.
   void report(const LocatedFinding& located);
   void end_folds(FoldSet folds, std::size_t line);
 };
+
+/// Whether a finding assumes that all ways to its line are known: W116, W117, and what is said of the spindle only
+/// where it is so on every path. After a jump that may lead anywhere, no such finding is made.
+bool assumes_all_paths(dialect::DiagnosticId id);
+/// Whether findings of a code must be looked at one by one, and not only be counted.
+bool needs_look(dialect::DiagnosticId id);
 
 /// The number of findings of each kind in several outcomes; each needs a call of count() before.
 class FindingCounts {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "analyzer/check/check_text.h"
+#include "analyzer/check/folding.h"
 #include "tests/support/random_program.h"
 #include "tests/support/report_text.h"
 
@@ -218,6 +219,38 @@ TEST(Analysis, AnExcerptHasTheFirstFindingsAndCountsTheOthers) {
     EXPECT_EQ(static_cast<std::size_t>(counted(excerpt.report)) + excerpt.left_out,
               static_cast<std::size_t>(counted(all)));
   }
+}
+
+TEST(AnalysisProperty, AnExcerptIsTheStartOfTheFoldedReport) {
+  std::size_t repetitions = 0;
+  for (const std::uint64_t seed : support::seeds(40)) {
+    Random random(seed);
+    RandomProgram program(random);
+    program.jump_chances = 40;
+    program.end_chances = 5'000;
+    std::vector<std::string> lines = program.lines(600);
+    for (std::string& line : lines)
+      if (random.one_in(3))
+        line = random.any_of({"G1 X1 B5", "G1 X2 C7", "G00 X3 F500", "12.5 G01 X3", "G94", "G93", "G48"});
+    const Document document(support::joined(lines));
+    const Analysis analysis(document, kSetup);
+    const Report all = folded(analysis.report());
+    for (const std::size_t maximum : {0u, 5u, 50u, 300u}) {
+      const FirstFindings excerpt = analysis.excerpt({.max = maximum, .folds = true});
+      const std::string which = fmt::format("seed {}, at most {}", seed, maximum);
+      ASSERT_EQ(excerpt.report.findings.size() + excerpt.left_out, all.findings.size()) << which;
+      const std::vector<std::string> texts = support::texts_of(excerpt.report);
+      const std::vector<std::string> expected = support::texts_of(all);
+      ASSERT_TRUE(std::equal(texts.begin(), texts.end(), expected.begin())) << which;
+      for (std::size_t i = 0; i < texts.size(); ++i) {
+        const auto theirs = excerpt.report.repetitions_of(excerpt.report.findings[i]);
+        const auto ours = all.repetitions_of(all.findings[i]);
+        ASSERT_TRUE(std::equal(theirs.begin(), theirs.end(), ours.begin(), ours.end())) << which;
+        repetitions += theirs.size();
+      }
+    }
+  }
+  EXPECT_GT(repetitions, support::often(1'000));
 }
 
 TEST(Analysis, KnowsWhereTheCheckStandsBeforeALine) {
