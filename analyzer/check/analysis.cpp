@@ -68,6 +68,21 @@ void Analysis::FlowEvents::each(Take take) const {
   }
 }
 
+Analysis::LabelRange Analysis::LabelRange::of(const syntax::ChunkTrees& trees) {
+  LabelRange range;
+  for (std::size_t line = 0; line < trees.size(); ++line) {
+    const syntax::PlainLine plain = trees.store().plain(line);
+    if (!plain.words.empty()) {
+      if (plain.has_label) range.add(plain.label);
+      continue;
+    }
+    const syntax::LineTree tree = trees[line];
+    if (tree.has(syntax::LineTree::kTwoBlocks)) return any();
+    if (tree.has_label()) range.add(tree.label);
+  }
+  return range;
+}
+
 /// Reads the events of a chunk that concern jumps, as far as the program has jumps.
 void Analysis::read_jumps(std::size_t chunk, Row& row) const {
   const std::string_view text = document_.chunk_text(chunk);
@@ -189,31 +204,65 @@ void Analysis::move_jumps(const syntax::ChunkChange& change) {
       first, sites, static_cast<std::int64_t>(document_.line_count()) - static_cast<std::int64_t>(line_count_));
 }
 
-/// Marks chunks as stale if a jump in them has another effect now, or if an assigned value now falls into another cell
-/// of constants.
-void Analysis::check_changed_jumps_again(const JumpMap& old_jumps) {
+/// The jumps of these events, in order.
+static std::vector<syntax::Jump> jumps_of(const std::vector<FlowEvent>& events) {
+  std::vector<syntax::Jump> jumps;
+  for (const FlowEvent& event : events)
+    if (event.kind == FlowEvent::Kind::Jump) jumps.push_back(event.jump);
+  return jumps;
+}
+
+/// The numbers that jumps get as the old events become the new ones.
+JumpNumbers Analysis::number_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events,
+                                   const std::vector<FlowEvent>& new_events) const {
+  const std::vector<syntax::Jump> before = jumps_of(old_events);
+  const std::vector<syntax::Jump> after = jumps_of(new_events);
+  const std::size_t common = std::min(before.size(), after.size());
+  std::size_t head = 0;
+  while (head < common && jump_alike(before[head], after[head])) ++head;
+  std::size_t tail = 0;
+  while (tail < common - head && jump_alike(before[before.size() - 1 - tail], after[after.size() - 1 - tail])) ++tail;
+  std::size_t above = 0;
+  for (std::size_t chunk = 0; chunk < change.first; ++chunk) above += rows_[chunk].jumps.jump_count();
+  return {.first = static_cast<std::uint32_t>(above + head),
+          .end = static_cast<std::uint32_t>(above + before.size() - tail),
+          .shift = static_cast<std::uint32_t>(after.size() - before.size())};
+}
+
+/// Marks chunks as stale, except the changed ones, if a jump in them has another effect now, or if an assigned value
+/// now falls into another cell of constants.
+void Analysis::check_changed_jumps_again(const syntax::ChunkChange& change, const JumpMap& old_jumps,
+                                         JumpNumbers numbers) {
   RegisterSet recut = 0;
   for (int reg = 1; reg <= dialect::kRegisterCount; ++reg)
     if (jumps_.constants(reg) != old_jumps.constants(reg)) recut |= register_bit(reg);
-  const auto is_assigned_alike = [&](const FlowEvent& event, std::uint32_t next_jump) {
+  const bool compares_alike = jumps_.compares_registers() == old_jumps.compares_registers();
+  const auto is_assigned_alike = [&](const FlowEvent& event, std::uint32_t next_jump, std::uint32_t old_next) {
     const RegisterSet bit = register_bit(event.reg);
-    if (((jumps_.read_before(next_jump) ^ old_jumps.read_before(next_jump)) & bit) != 0) return false;
+    if (!compares_alike || ((jumps_.read_before(next_jump) ^ old_jumps.read_before(old_next)) & bit) != 0) return false;
     return (recut & bit) == 0 || ValueSet::of(event.value, jumps_.constants(event.reg)) ==
                                      ValueSet::of(event.value, old_jumps.constants(event.reg));
   };
   std::uint32_t jump = 0;
-  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
-    rows_[chunk].jumps.each([&](const FlowEvent& event) {
-      const bool is_alike = event.kind == FlowEvent::Kind::Jump         ? jumps_.is_equivalent(jump++, old_jumps)
-                            : event.kind == FlowEvent::Kind::Assignment ? is_assigned_alike(event, jump)
+  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
+    Row& row = rows_[chunk];
+    if (chunk >= change.first && chunk < change.first + change.inserted) {
+      jump += static_cast<std::uint32_t>(row.jumps.jump_count());
+      continue;
+    }
+    const std::uint32_t shift = chunk < change.first ? 0 : numbers.shift;
+    row.jumps.each([&](const FlowEvent& event) {
+      const std::uint32_t old_jump = jump - shift;
+      const bool is_alike = event.kind == FlowEvent::Kind::Jump ? jumps_.is_equivalent(jump++, old_jumps, old_jump)
+                            : event.kind == FlowEvent::Kind::Assignment ? is_assigned_alike(event, jump, old_jump)
                                                                         : true;
-      if (!is_alike) rows_[chunk].is_stale = true;
+      if (!is_alike) row.is_stale = true;
     });
+  }
 }
 
-/// Updates the jumps after these events have been replaced. Returns false if all chunks must be checked again:
-/// frontiers refer to jumps by number.
-bool Analysis::follow_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events) {
+/// Updates the jumps after these events have been replaced.
+void Analysis::follow_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events) {
   std::vector<FlowEvent> new_events;
   for (std::size_t i = change.first; i < change.first + change.inserted; ++i)
     rows_[i].jumps.each([&](const FlowEvent& event) { new_events.push_back(event); });
@@ -221,14 +270,18 @@ bool Analysis::follow_jumps(const syntax::ChunkChange& change, const std::vector
                                [](const FlowEvent& a, const FlowEvent& b) { return a.means_the_same(b); });
   if (same) {
     if (!jumps_.empty()) move_jumps(change);
-    return true;
+    return;
   }
+  const JumpNumbers numbers = number_jumps(change, old_events, new_events);
   const JumpMap old_jumps = std::exchange(jumps_, find_jumps(old_events, new_events));
-  if (jumps_.sites().size() != old_jumps.sites().size() ||
-      jumps_.compares_registers() != old_jumps.compares_registers())
-    return false;
-  check_changed_jumps_again(old_jumps);
-  return true;
+  if (numbers.shift != 0) {
+    for (std::size_t chunk = change.first + change.inserted; chunk < rows_.size(); ++chunk) {
+      numbers.apply(rows_[chunk].checked->before);
+      numbers.apply(rows_[chunk].checked->outcome);
+    }
+    numbers.apply(end_);
+  }
+  check_changed_jumps_again(change, old_jumps, numbers);
 }
 
 // --- Check
@@ -271,9 +324,9 @@ bool Analysis::follow_text(const std::function<bool()>& stop) {
     return fresh;
   });
   const bool has_changed = change.removed + change.inserted > 0;
-  const bool jumps_stand = !has_changed || follow_jumps(change, old_events);
+  if (has_changed) follow_jumps(change, old_events);
   line_count_ = document_.line_count();
-  if (is_first || !jumps_stand) {
+  if (is_first) {
     for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale = true;
     return check_from(0, Checker::start(setup_), stop);
   }
@@ -334,6 +387,7 @@ void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, C
   row.positions = outcome.positions;
   row.centers = outcome.centers;
   row.is_stale = false;
+  if (row.labels == LabelRange::any()) row.labels = LabelRange::of(trees);
   row.has_text = outcome.has_text;
   row.has_more = !outcome.findings.empty() || !outcome.fold_ends.empty() ||
                  outcome.leads_anywhere_from != Outcome::kNowhere || !outcome.labels.empty() ||

@@ -9,6 +9,7 @@
 
 #include "analyzer/check/checker.h"
 #include "analyzer/check/conclusion.h"
+#include "analyzer/check/jump_numbers.h"
 #include "analyzer/check/position_shift.h"
 #include "interpreter/syntax/per_chunk.h"
 
@@ -57,6 +58,7 @@ class Analysis {
     void push_back(const FlowEvent& event);
     void clear() { *this = {}; }
     void shrink_to_fit();
+    std::size_t jump_count() const { return jumps_.size(); }
     /// Removes the labels for which `is_gone` holds. Returns whether there were any.
     template <class IsGone>
     bool erase_labels(IsGone is_gone);
@@ -81,10 +83,13 @@ class Analysis {
 
     /// The range assumed before the labels are read.
     static LabelRange any() { return {0, std::numeric_limits<std::uint64_t>::max()}; }
+    static LabelRange of(const syntax::ChunkTrees& trees);
     void add(std::uint64_t label) {
       min = std::min(min, label);
       max = std::max(max, label);
     }
+
+    friend bool operator==(const LabelRange&, const LabelRange&) = default;
   };
   struct Row {
     PositionShift shift;    ///< The shift of all positions before the chunk since it was checked.
@@ -103,7 +108,7 @@ class Analysis {
   bool check_stale(const std::function<bool()>& stop);
   Frontier before(std::size_t chunk) const;
   void read_jumps(std::size_t chunk, Row& row) const;
-  bool follow_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events);
+  void follow_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events);
   void move_jumps(const syntax::ChunkChange& change);
   template <class Take>
   void each_jump_event(Take take) const;
@@ -112,7 +117,9 @@ class Analysis {
                                           const std::vector<FlowEvent>& new_events) const;
   void follow_labels(const std::vector<std::uint64_t>& named);
   bool read_labels(std::size_t chunk, const std::vector<std::uint64_t>& added, const std::vector<std::uint64_t>& named);
-  void check_changed_jumps_again(const JumpMap& old_jumps);
+  JumpNumbers number_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events,
+                           const std::vector<FlowEvent>& new_events) const;
+  void check_changed_jumps_again(const syntax::ChunkChange& change, const JumpMap& old_jumps, JumpNumbers numbers);
   bool check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop);
   void check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, Checker& checker);
   std::size_t pass_over(std::size_t chunk, PositionShift& shift);

@@ -343,8 +343,7 @@ JumpMap JumpMap::moved(std::size_t first, const std::vector<Site>& sites, std::i
   return std::move(*this);
 }
 
-/// Whether two conditions and their targets are the same.
-static bool jump_alike(const syntax::Jump& a, const syntax::Jump& b) {
+bool jump_alike(const syntax::Jump& a, const syntax::Jump& b) {
   return a.variable == b.variable && a.comparison == b.comparison &&
          (a.value == b.value || (std::isnan(a.value) && std::isnan(b.value))) && a.target == b.target;
 }
@@ -354,9 +353,9 @@ bool FlowEvent::means_the_same(const FlowEvent& other) const {
          (kind != Kind::Jump || jump_alike(jump, other.jump));
 }
 
-bool JumpMap::is_equivalent(std::uint32_t jump, const JumpMap& other) const {
-  return jump_alike(sites_[jump].jump, other.sites_[jump].jump) && reads_[jump] == other.reads_[jump] &&
-         target_of(jump) == other.target_of(jump);
+bool JumpMap::is_equivalent(std::uint32_t jump, const JumpMap& other, std::uint32_t other_jump) const {
+  return jump_alike(sites_[jump].jump, other.sites_[other_jump].jump) && reads_[jump] == other.reads_[other_jump] &&
+         target_of(jump) == other.target_of(other_jump);
 }
 
 }  // namespace isocnc::check

@@ -35,6 +35,9 @@ struct FlowEvent {
   bool means_the_same(const FlowEvent& other) const;
 };
 
+/// Whether two conditions and their targets are the same.
+bool jump_alike(const syntax::Jump& a, const syntax::Jump& b);
+
 /// Sorts values, each once. Labels are in order already in most programs.
 template <class Value>
 void sort_once(std::vector<Value>& values) {
@@ -132,8 +135,8 @@ class JumpMap {
   /// Whether a label is defined twice; true for all while the labels are not known.
   bool may_repeat(std::uint64_t label) const { return !knows_labels_ || repeated_.contains(label); }
 
-  /// Whether the jump of this number has the same effect in both maps, for every state.
-  bool is_equivalent(std::uint32_t jump, const JumpMap& other) const;
+  /// Whether a jump has the same effect as another one in another map, for every state.
+  bool is_equivalent(std::uint32_t jump, const JumpMap& other, std::uint32_t other_jump) const;
   /// The map after an edit that leaves the jumps equivalent: replaces the sites from number `first` on by `sites`, and
   /// moves all later ones down by `lines` lines.
   JumpMap moved(std::size_t first, const std::vector<Site>& sites, std::int64_t lines) &&;

@@ -100,6 +100,27 @@ TEST(Analysis, WhatAnIfComparesIsCheckedAgainWhereItMatters) {
   expect_few(1'200);
 }
 
+TEST(Analysis, AnIfThatIsInsertedIsCheckedWhereItMatters) {
+  for (const std::string& text : {optional_parts(5'000), zigzag(20'000)}) {
+    Document document(text);
+    Analysis analysis(document, kSetup);
+    const auto expect_few = [&] {
+      analysis.update();
+      EXPECT_LE(analysis.lines_checked(), 1'200u);
+      EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+    };
+    document.replace({8'003, 0}, {8'003, 0}, "IF VGPL=9 GOTO N88888\nX1\nN88888 X2\n");
+    expect_few();
+    document.replace({4'003, 0}, {4'003, 0}, "V2=9\nIF V2=9 GOTO N77777\nX1\nN77777 X2\n");
+    expect_few();
+    EXPECT_EQ(analysis.frontier_before(15'000), Analysis(document, kSetup).frontier_before(15'000));
+    document.replace({4'003, 0}, {4'007, 0}, "");
+    expect_few();
+    document.replace({8'003, 0}, {8'004, 0}, "");
+    expect_few();
+  }
+}
+
 TEST(Analysis, AJumpMovesUpWhenLinesAboveAreRemoved) {
   const std::string below = "IF V9=1 GOTO N5\nX1\nN5 X2\nM02\n";
   const std::string text = zigzag(1'000);
@@ -397,6 +418,8 @@ TEST(AnalysisProperty, JumpsEditedEqualFresh) {
       ASSERT_EQ(analysis.finding_count(), fresh.finding_count()) << which;
       for (std::size_t line = 0; line <= document.line_count(); line += 61)
         ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+      const std::size_t end = document.line_count();
+      ASSERT_EQ(analysis.frontier_before(end), fresh.frontier_before(end)) << which << ", end";
     }
   }
 }

@@ -131,7 +131,7 @@ void expect_same(const JumpMap& one, const JumpMap& other, const std::string& wh
   for (int reg = 1; reg <= dialect::kRegisterCount; ++reg) EXPECT_EQ(one.constants(reg), other.constants(reg)) << which;
   for (std::uint32_t jump = 0; jump < one.sites().size(); ++jump) {
     EXPECT_EQ(one.sites()[jump].line, other.sites()[jump].line) << which;
-    EXPECT_TRUE(one.is_equivalent(jump, other)) << which;
+    EXPECT_TRUE(one.is_equivalent(jump, other, jump)) << which;
   }
   for (const std::uint64_t label : one.labels()) EXPECT_EQ(one.may_repeat(label), other.may_repeat(label)) << which;
 }
