@@ -99,6 +99,13 @@ static void note_plain_feed(const execution::PlainRun& run, const execution::Sta
   if (run.has_taken_feed() && state.inverse_time()) outcome.end_folds(folds_ended_by(BlockStep::InverseTimeFeed), line);
 }
 
+/// Whether a finding is about the circle of an arc, which under G91 does not depend on where the arc starts.
+static bool is_of_circle(const Finding& finding) {
+  static constexpr dialect::DiagnosticId kOfCircle[] = {"arc-center-mismatch"_diag, "arc-radius-mismatch"_diag,
+                                                        "arc-radius-too-small"_diag};
+  return std::find(std::begin(kOfCircle), std::end(kOfCircle), finding.id) != std::end(kOfCircle);
+}
+
 /// Records that a depth is judged from where the tool is.
 static void note_house_rules(const rules::HouseRules& house, PositionUse& use) {
   if (house.watches_depth())
@@ -369,7 +376,12 @@ class Checker::LineExecution final : public execution::Sink {
     if (checker_.house_)
       checker_.house_->judge(block, is_right, is_legible_ && has_legible_words(), move_ ? &*move_ : nullptr,
                              group.house, *this);
-    const bool has_findings = !line_.findings.empty() || static_cast<std::ptrdiff_t>(findings.size()) > first;
+    const bool is_incremental = before.incremental() && state.incremental();
+    const auto may_depend_on_start = [&](const GroupFinding& found) {
+      return !is_incremental || !is_of_circle(found.finding);
+    };
+    const bool has_findings =
+        !line_.findings.empty() || std::any_of(findings.begin() + first, findings.end(), may_depend_on_start);
     const bool is_judged =
         has_findings || checker_.checks_moves_ || (checker_.house_ && checker_.house_->watches_depth());
     note_line(line_, before, state, is_judged, outcome_.positions);

@@ -175,6 +175,19 @@ TEST(Analysis, AShiftPassesOverIncrementalMoves) {
   EXPECT_EQ(analysis.frontier_before(document.line_count()), fresh.frontier_before(document.line_count()));
 }
 
+TEST(Analysis, AShiftPassesOverWrongIncrementalArcs) {
+  std::string text = incremental_zigzag(20'000);
+  for (std::size_t arc = text.find("I0.1"); arc != std::string::npos; arc = text.find("I0.1", arc + 1))
+    text.replace(arc, 4, "I0.2");
+  Document document(text);
+  Analysis analysis(document, kSetup);
+  document.replace({2'000, 0}, {2'000, 0}, "X7.123\n");
+  analysis.update();
+  EXPECT_LE(analysis.lines_checked(), 1'000u);
+  EXPECT_GT(analysis.finding_count(), 100u);
+  EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+}
+
 TEST(Analysis, AShiftIsNotPassedOverByWhatDependsOnThePosition) {
   Document document(incremental_zigzag(4'000));
   Analysis analysis(document, kSetup);
@@ -320,7 +333,8 @@ void edit_moves(Random& random, Document& document) {
       fmt::format("X{}.{:03} Y{}\n", random.between(-9, 9), random.between(0, 999), random.between(-9, 9));
   const std::string any = std::string(
       random.any_of({"G90\n", "G91\n", "G90 X3\nG91\n", "G92 X1\n", "G70\n", "G71\n", "G2 X2 Y0 I1 J0\nG1 Y1\n",
-                     "G90 G3 X5 Y5 R50\nG91 G1 X1\n", "IF VGPL=1 GOTO N7\n", "N7\n", "G29 B90\n", "G27\n"}));
+                     "G2 X2 Y0 I1.5 J0\nG1 Y1\n", "G3 X2 Y0 R0.5\nG1 Y1\n", "G90 G3 X5 Y5 R50\nG91 G1 X1\n",
+                     "IF VGPL=1 GOTO N7\n", "N7\n", "G29 B90\n", "G27\n"}));
   document.replace({line, 0}, {line + random.below(2), 0}, random.one_in(4) ? any : move);
 }
 
