@@ -326,12 +326,23 @@ bool Analysis::follow_text(const std::function<bool()>& stop) {
   const bool has_changed = change.removed + change.inserted > 0;
   if (has_changed) follow_jumps(change, old_events);
   line_count_ = document_.line_count();
-  if (is_first) {
-    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale = true;
-    return check_from(0, Checker::start(setup_), stop);
-  }
-  if (has_changed && !check_from(change.first, std::move(at_change), stop)) return false;
+  if (is_first) return check_from(0, Checker::start(setup_), stop);
+  // A jump above may lead elsewhere now. So what is stale is checked from the top: paths that wait for a label which
+  // the edit has removed must not be followed beyond it.
+  if (has_changed) start_at(change.first, std::move(at_change));
   return check_stale(stop);
+}
+
+/// Has the lines from a chunk on checked with this frontier before them.
+void Analysis::start_at(std::size_t chunk, Frontier frontier) {
+  if (chunk == rows_.size()) {
+    end_ = std::move(frontier);
+    return;
+  }
+  Row& row = rows_[chunk];
+  row.checked->before = std::move(frontier);
+  row.shift = {};
+  row.is_stale = true;
 }
 
 /// Checks from a chunk on, as long as the frontier differs from the kept one. False if stopped; the rest is then stale.
@@ -351,9 +362,7 @@ bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::funct
       }
     }
     if (stop && checked++ % kChunksAtOnce == 0 && stop()) {
-      rows_[chunk].checked->before = std::move(checker.frontier);
-      rows_[chunk].shift = {};
-      rows_[chunk].is_stale = true;
+      start_at(chunk, std::move(checker.frontier));
       return false;
     }
     trees.read(document_, chunk);

@@ -106,6 +106,7 @@ class Analysis {
   bool follow_text(const std::function<bool()>& stop);
   bool follow_centers(const std::function<bool()>& stop);
   bool check_stale(const std::function<bool()>& stop);
+  void start_at(std::size_t chunk, Frontier frontier);
   Frontier before(std::size_t chunk) const;
   void read_jumps(std::size_t chunk, Row& row) const;
   void follow_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events);

@@ -121,6 +121,21 @@ TEST(Analysis, AnIfThatIsInsertedIsCheckedWhereItMatters) {
   }
 }
 
+TEST(Analysis, ALabelThatIsRemovedKeepsNoPathWaiting) {
+  std::string text = zigzag(20'000);
+  text.insert(text.find("G1 X2 "), "IF VGPL=1 GOTO N2\n");
+  Document document(text);
+  document.replace({1'000, 0}, {1'000, 0}, "N2 ");
+  Analysis analysis(document, kSetup);
+  for (const char digit : {'3', '2'}) {
+    document.replace({1'000, 1}, {1'000, 2}, std::string(1, digit));
+    analysis.update();
+    EXPECT_LE(analysis.lines_checked(), 1'600u);
+    EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+    EXPECT_EQ(analysis.frontier_before(20'000), Analysis(document, kSetup).frontier_before(20'000));
+  }
+}
+
 TEST(Analysis, AJumpMovesUpWhenLinesAboveAreRemoved) {
   const std::string below = "IF V9=1 GOTO N5\nX1\nN5 X2\nM02\n";
   const std::string text = zigzag(1'000);
