@@ -1,7 +1,6 @@
 #include "analyzer/check/analysis.h"
 
 #include <algorithm>
-#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -30,41 +29,86 @@ Frontier Analysis::before(std::size_t chunk) const {
 // --- Jumps
 
 void Analysis::FlowEvents::push_back(const FlowEvent& event) {
-  const bool is_assignment = event.kind == FlowEvent::Kind::Assignment;
-  events_.push_back(
-      {is_assignment ? std::bit_cast<std::uint64_t>(event.value) : event.label, event.line, event.kind, event.reg});
-  if (event.kind == FlowEvent::Kind::Jump) jumps_.push_back(event.jump);
+  if (event.kind == FlowEvent::Kind::Assignment) {
+    (places_.empty() ? assigned_first_ : places_.back().assigned) |= register_bit(event.reg);
+    assignments_.push_back({event.value, event.line, event.reg});
+    return;
+  }
+  const bool is_jump = event.kind == FlowEvent::Kind::Jump;
+  places_.push_back({.label = is_jump ? event.jump.target : event.label,
+                     .line = event.line,
+                     .first_assignment = static_cast<std::uint32_t>(assignments_.size()),
+                     .is_jump = is_jump});
+  if (is_jump) jumps_.push_back(event.jump);
 }
 
 void Analysis::FlowEvents::shrink_to_fit() {
-  events_.shrink_to_fit();
+  places_.shrink_to_fit();
+  assignments_.shrink_to_fit();
   jumps_.shrink_to_fit();
 }
 
 template <class IsGone>
 bool Analysis::FlowEvents::erase_labels(IsGone is_gone) {
-  return std::erase_if(events_, [&](const Short& event) {
-           return event.kind == FlowEvent::Kind::Label && is_gone(event.content);
-         }) > 0;
+  // The assignments after a label then belong to the place before it.
+  std::size_t kept = 0;
+  for (const JumpOrLabel& place : places_) {
+    if (place.is_jump || !is_gone(place.label)) {
+      places_[kept++] = place;
+    } else {
+      (kept == 0 ? assigned_first_ : places_[kept - 1].assigned) |= place.assigned;
+    }
+  }
+  const bool has_lost = kept < places_.size();
+  places_.resize(kept);
+  return has_lost;
 }
 
 template <class Take>
 void Analysis::FlowEvents::each(Take take) const {
+  std::size_t next = 0;
+  const auto take_assignments = [&](std::size_t end) {
+    for (; next < end; ++next)
+      take(FlowEvent{.kind = FlowEvent::Kind::Assignment,
+                     .reg = assignments_[next].reg,
+                     .line = assignments_[next].line,
+                     .value = assignments_[next].value});
+  };
   auto jump = jumps_.begin();
-  for (const Short& event : events_) {
-    FlowEvent whole{.kind = event.kind, .reg = event.reg, .line = event.line};
-    switch (event.kind) {
-      case FlowEvent::Kind::Assignment:
-        whole.value = std::bit_cast<double>(event.content);
-        break;
-      case FlowEvent::Kind::Label:
-        whole.label = event.content;
-        break;
-      case FlowEvent::Kind::Jump:
-        whole.jump = *jump++;
-        break;
+  for (const JumpOrLabel& place : places_) {
+    take_assignments(place.first_assignment);
+    if (place.is_jump) {
+      take(FlowEvent{.kind = FlowEvent::Kind::Jump, .line = place.line, .jump = *jump++});
+    } else {
+      take(FlowEvent{.kind = FlowEvent::Kind::Label, .line = place.line, .label = place.label});
     }
-    take(whole);
+  }
+  take_assignments(assignments_.size());
+}
+
+template <class TakeJump, class TakeAssignments>
+void Analysis::FlowEvents::each_part(TakeJump jump, TakeAssignments assignments) const {
+  std::size_t next = 0;
+  RegisterSet assigned = assigned_first_;
+  for (const JumpOrLabel& place : places_) {
+    assignments(next, place.first_assignment, assigned);
+    next = place.first_assignment;
+    assigned = place.assigned;
+    if (place.is_jump) jump();
+  }
+  assignments(next, assignments_.size(), assigned);
+}
+
+void Analysis::FlowEvents::collect(std::size_t first_line, JumpCollector& collector) const {
+  auto jump = jumps_.begin();
+  collector.add_assignments(assigned_first_);
+  for (const JumpOrLabel& place : places_) {
+    if (place.is_jump) {
+      collector.add_jump(first_line + place.line, *jump++);
+    } else {
+      collector.add_label(place.label);
+    }
+    collector.add_assignments(place.assigned);
   }
 }
 
@@ -96,33 +140,24 @@ void Analysis::read_jumps(std::size_t chunk, Row& row) const {
   row.jumps.shrink_to_fit();
 }
 
-/// Reads the events of a chunk again, with the labels that jumps name now, if it may define some of those added (both
-/// ascending). Returns whether it defines any of them.
-bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& added,
-                           const std::vector<std::uint64_t>& named) {
+/// Reads the events of a chunk again, with the labels that jumps name now, if it may define some of those added.
+/// Returns whether it defines any of them.
+bool Analysis::read_labels(std::size_t chunk, const NamedLabels& change) {
   Row& row = rows_[chunk];
-  const auto first = std::lower_bound(added.begin(), added.end(), row.labels.min);
-  if (first == added.end() || *first > row.labels.max) return false;
+  const auto first = std::lower_bound(change.added.begin(), change.added.end(), row.labels.min);
+  if (first == change.added.end() || *first > row.labels.max) return false;
   row.labels = {};
   row.jumps.clear();
   bool has_added = false;
   each_event_in(document_.chunk_text(chunk), [&](const FlowEvent& event) {
     const bool is_label = event.kind == FlowEvent::Kind::Label;
     if (is_label) row.labels.add(event.label);
-    if (is_label && !std::binary_search(named.begin(), named.end(), event.label)) return;
-    has_added |= is_label && std::binary_search(first, added.end(), event.label);
+    const bool is_added = is_label && std::binary_search(first, change.added.end(), event.label);
+    if (is_label && !is_added && (!jumps_.names(event.label) || change.removes(event.label))) return;
+    has_added |= is_added;
     row.jumps.push_back(event);
   });
   return has_added;
-}
-
-/// Calls `take` with each event that concerns jumps, in all chunks, and its line.
-template <class Take>
-void Analysis::each_jump_event(Take take) const {
-  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
-    const std::size_t first_line = document_.first_line_of_chunk(chunk);
-    rows_[chunk].jumps.each([&](const FlowEvent& event) { take(first_line + event.line, event); });
-  }
 }
 
 /// The labels that the jumps of these events name, ascending.
@@ -134,31 +169,6 @@ static std::vector<std::uint64_t> labels_named_by(const std::vector<FlowEvent>& 
   return labels;
 }
 
-/// The labels that the jumps in all chunks name after the old events have become the new ones, ascending.
-std::vector<std::uint64_t> Analysis::labels_named(const std::vector<FlowEvent>& old_events,
-                                                  const std::vector<FlowEvent>& new_events) const {
-  const std::vector<std::uint64_t> of_old = labels_named_by(old_events);
-  // By how much oftener old labels are named in the whole program than in the old events.
-  std::vector<std::ptrdiff_t> others(of_old.size());
-  const auto count = [&](std::uint64_t label, std::ptrdiff_t by) {
-    const auto found = std::lower_bound(of_old.begin(), of_old.end(), label);
-    if (found != of_old.end() && *found == label) others[static_cast<std::size_t>(found - of_old.begin())] += by;
-  };
-  for (const JumpMap::Site& site : jumps_.sites()) count(site.jump.target, 1);
-  for (const FlowEvent& event : old_events)
-    if (event.kind == FlowEvent::Kind::Jump) count(event.jump.target, -1);
-  std::vector<std::uint64_t> kept;
-  for (const std::uint64_t label : jumps_.labels()) {
-    const auto old = std::lower_bound(of_old.begin(), of_old.end(), label);
-    const bool is_of_old = old != of_old.end() && *old == label;
-    if (!is_of_old || others[static_cast<std::size_t>(old - of_old.begin())] > 0) kept.push_back(label);
-  }
-  const std::vector<std::uint64_t> of_new = labels_named_by(new_events);
-  std::vector<std::uint64_t> all;
-  std::set_union(kept.begin(), kept.end(), of_new.begin(), of_new.end(), std::back_inserter(all));
-  return all;
-}
-
 /// The elements of `a` that are not in `b`; both are ascending.
 static std::vector<std::uint64_t> difference(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
   std::vector<std::uint64_t> result;
@@ -166,26 +176,50 @@ static std::vector<std::uint64_t> difference(const std::vector<std::uint64_t>& a
   return result;
 }
 
-/// Reads the labels that jumps name now (ascending) and did not name before, and forgets the others.
-void Analysis::follow_labels(const std::vector<std::uint64_t>& named) {
-  const std::vector<std::uint64_t>& named_before = jumps_.labels();
-  const std::vector<std::uint64_t> added = difference(named, named_before);
-  const std::vector<std::uint64_t> removed = difference(named_before, named);
-  if (added.empty() && removed.empty()) return;
-  const auto is_removed = [&](std::uint64_t label) {
-    return std::binary_search(removed.begin(), removed.end(), label);
+bool Analysis::NamedLabels::removes(std::uint64_t label) const {
+  return std::binary_search(removed.begin(), removed.end(), label);
+}
+
+/// The labels that jumps name after the old events have become the new ones, and did not name before, or the reverse.
+Analysis::NamedLabels Analysis::named_labels(const std::vector<FlowEvent>& old_events,
+                                             const std::vector<FlowEvent>& new_events) const {
+  const std::vector<std::uint64_t> of_old = labels_named_by(old_events);
+  const std::vector<std::uint64_t> of_new = labels_named_by(new_events);
+  NamedLabels change{.added = difference(of_new, jumps_.labels()), .removed = difference(of_old, of_new)};
+  if (change.removed.empty()) return change;
+  // How often jumps elsewhere name a label that is no longer named here.
+  std::vector<std::ptrdiff_t> others(change.removed.size());
+  const auto count = [&](std::uint64_t label, std::ptrdiff_t by) {
+    const auto found = std::lower_bound(change.removed.begin(), change.removed.end(), label);
+    if (found != change.removed.end() && *found == label)
+      others[static_cast<std::size_t>(found - change.removed.begin())] += by;
   };
+  for (const JumpMap::Site& site : jumps_.sites()) count(site.jump.target, 1);
+  for (const FlowEvent& event : old_events)
+    if (event.kind == FlowEvent::Kind::Jump) count(event.jump.target, -1);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (others[i] == 0) change.removed[kept++] = change.removed[i];
+  change.removed.resize(kept);
+  return change;
+}
+
+/// Reads the labels that jumps name now and did not name before, and forgets the others.
+void Analysis::follow_labels(const NamedLabels& change) {
+  if (change.added.empty() && change.removed.empty()) return;
+  const auto is_removed = [&](std::uint64_t label) { return change.removes(label); };
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
-    const bool has_lost = !removed.empty() && rows_[chunk].jumps.erase_labels(is_removed);
-    if (read_labels(chunk, added, named) || has_lost) rows_[chunk].is_stale = true;
+    const bool has_lost = !change.removed.empty() && rows_[chunk].jumps.erase_labels(is_removed);
+    if (read_labels(chunk, change) || has_lost) rows_[chunk].is_stale = true;
   }
 }
 
 /// The jumps of the program, from the events of its chunks, of which the old ones have become the new ones.
 JumpMap Analysis::find_jumps(const std::vector<FlowEvent>& old_events, const std::vector<FlowEvent>& new_events) {
-  follow_labels(labels_named(old_events, new_events));
+  follow_labels(named_labels(old_events, new_events));
   JumpCollector collector(jumps_);
-  each_jump_event([&](std::size_t line, const FlowEvent& event) { collector.add(line, event); });
+  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
+    rows_[chunk].jumps.collect(document_.first_line_of_chunk(chunk), collector);
   return std::move(collector).finish();
 }
 
@@ -237,11 +271,10 @@ void Analysis::check_changed_jumps_again(const syntax::ChunkChange& change, cons
   for (int reg = 1; reg <= dialect::kRegisterCount; ++reg)
     if (jumps_.constants(reg) != old_jumps.constants(reg)) recut |= register_bit(reg);
   const bool compares_alike = jumps_.compares_registers() == old_jumps.compares_registers();
-  const auto is_assigned_alike = [&](const FlowEvent& event, std::uint32_t next_jump, std::uint32_t old_next) {
-    const RegisterSet bit = register_bit(event.reg);
-    if (!compares_alike || ((jumps_.read_before(next_jump) ^ old_jumps.read_before(old_next)) & bit) != 0) return false;
-    return (recut & bit) == 0 || ValueSet::of(event.value, jumps_.constants(event.reg)) ==
-                                     ValueSet::of(event.value, old_jumps.constants(event.reg));
+  const auto is_cut_alike = [&](const FlowEvents::Assignment& assignment) {
+    const auto& [value, line, reg] = assignment;
+    return (recut & register_bit(reg)) == 0 ||
+           ValueSet::of(value, jumps_.constants(reg)) == ValueSet::of(value, old_jumps.constants(reg));
   };
   std::uint32_t jump = 0;
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
@@ -251,13 +284,21 @@ void Analysis::check_changed_jumps_again(const syntax::ChunkChange& change, cons
       continue;
     }
     const std::uint32_t shift = chunk < change.first ? 0 : numbers.shift;
-    row.jumps.each([&](const FlowEvent& event) {
-      const std::uint32_t old_jump = jump - shift;
-      const bool is_alike = event.kind == FlowEvent::Kind::Jump ? jumps_.is_equivalent(jump++, old_jumps, old_jump)
-                            : event.kind == FlowEvent::Kind::Assignment ? is_assigned_alike(event, jump, old_jump)
-                                                                        : true;
-      if (!is_alike) row.is_stale = true;
-    });
+    // Registers whose value an IF below reads now and did not read before the edit, or the reverse.
+    const auto differently_read = [&] { return jumps_.read_before(jump) ^ old_jumps.read_before(jump - shift); };
+    RegisterSet differing = differently_read();
+    row.jumps.each_part(
+        [&] {
+          row.is_stale |= !jumps_.is_equivalent(jump, old_jumps, jump - shift);
+          ++jump;
+          differing = differently_read();
+        },
+        [&](std::size_t first, std::size_t end, RegisterSet assigned) {
+          if (first == end) return;
+          row.is_stale |= !compares_alike || (differing & assigned) != 0;
+          for (; (recut & assigned) != 0 && first < end && !row.is_stale; ++first)
+            row.is_stale |= !is_cut_alike(row.jumps.assignment(first));
+        });
   }
 }
 

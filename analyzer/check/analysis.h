@@ -15,6 +15,8 @@
 
 namespace isocnc::check {
 
+class JumpCollector;
+
 /// The check of a document that is being edited. It keeps the check's frontier before each chunk of lines. After an
 /// edit it checks the changed chunks, and those after them until the frontier equals the kept one, or differs from it
 /// by a shift of the positions only: chunks whose findings a shift does not change are then skipped. The report equals
@@ -65,15 +67,33 @@ class Analysis {
     /// Calls `take` with each event, in order.
     template <class Take>
     void each(Take take) const;
+    /// Calls `jump()` for each jump and `assignments(first, end, registers)` for those between two jumps or labels:
+    /// their numbers, for assignment(), and the registers that they assign to.
+    template <class TakeJump, class TakeAssignments>
+    void each_part(TakeJump jump, TakeAssignments assignments) const;
+    /// Adds the events to those of a program.
+    void collect(std::size_t first_line, JumpCollector& collector) const;
 
-   private:
-    struct Short {
-      std::uint64_t content = 0;  ///< The label, or the bits of the value.
+    struct Assignment {
+      double value = 0;
       std::uint32_t line = 0;
-      FlowEvent::Kind kind = FlowEvent::Kind::Jump;
       std::uint8_t reg = 0;
     };
-    std::vector<Short> events_;
+    const Assignment& assignment(std::size_t number) const { return assignments_[number]; }
+
+   private:
+    /// A jump or a label.
+    struct JumpOrLabel {
+      std::uint64_t label = 0;  ///< The label defined, or jumped to.
+      std::uint32_t line = 0;
+      std::uint32_t first_assignment = 0;  ///< The number of the first assignment after it.
+      RegisterSet assigned = 0;            ///< Registers assigned to between it and the next one.
+      bool is_jump = false;
+    };
+
+    std::vector<JumpOrLabel> places_;
+    RegisterSet assigned_first_ = 0;  // Registers assigned to before the first place.
+    std::vector<Assignment> assignments_;
     std::vector<syntax::Jump> jumps_;
   };
   /// The range of the labels in a chunk.
@@ -90,6 +110,13 @@ class Analysis {
     }
 
     friend bool operator==(const LabelRange&, const LabelRange&) = default;
+  };
+  /// Labels that jumps name after an edit, and did not name before, and the reverse; ascending.
+  struct NamedLabels {
+    std::vector<std::uint64_t> added;
+    std::vector<std::uint64_t> removed;
+
+    bool removes(std::uint64_t label) const;
   };
   struct Row {
     PositionShift shift;    ///< The shift of all positions before the chunk since it was checked.
@@ -111,13 +138,10 @@ class Analysis {
   void read_jumps(std::size_t chunk, Row& row) const;
   void follow_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events);
   void move_jumps(const syntax::ChunkChange& change);
-  template <class Take>
-  void each_jump_event(Take take) const;
   JumpMap find_jumps(const std::vector<FlowEvent>& old_events, const std::vector<FlowEvent>& new_events);
-  std::vector<std::uint64_t> labels_named(const std::vector<FlowEvent>& old_events,
-                                          const std::vector<FlowEvent>& new_events) const;
-  void follow_labels(const std::vector<std::uint64_t>& named);
-  bool read_labels(std::size_t chunk, const std::vector<std::uint64_t>& added, const std::vector<std::uint64_t>& named);
+  NamedLabels named_labels(const std::vector<FlowEvent>& old_events, const std::vector<FlowEvent>& new_events) const;
+  void follow_labels(const NamedLabels& change);
+  bool read_labels(std::size_t chunk, const NamedLabels& change);
   JumpNumbers number_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events,
                            const std::vector<FlowEvent>& new_events) const;
   void check_changed_jumps_again(const syntax::ChunkChange& change, const JumpMap& old_jumps, JumpNumbers numbers);

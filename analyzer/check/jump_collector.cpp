@@ -14,6 +14,11 @@ void JumpCollector::add(std::size_t line, const FlowEvent& event) {
   JumpMap::add(events_, event);
 }
 
+void JumpCollector::add_jump(std::size_t line, const syntax::Jump& jump) {
+  sites_.push_back({line, jump});
+  events_.push_back({.kind = FlowEvent::Kind::Jump, .label = jump.target});
+}
+
 JumpMap JumpCollector::finish() && {
   JumpMap map(std::move(sites_), before_);
   if (!map.empty()) map.follow(std::move(events_));

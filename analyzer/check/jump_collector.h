@@ -16,6 +16,10 @@ class JumpCollector {
 
   /// Adds the next event; `line` counts from the start of the program. Labels that no jump names may be left out.
   void add(std::size_t line, const FlowEvent& event);
+  /// The same for each kind of event.
+  void add_assignments(RegisterSet registers) { JumpMap::add_assignments(events_, registers); }
+  void add_label(std::uint64_t label) { events_.push_back({.kind = FlowEvent::Kind::Label, .label = label}); }
+  void add_jump(std::size_t line, const syntax::Jump& jump);
 
   /// The map of all events added. It knows the labels.
   JumpMap finish() &&;

@@ -258,7 +258,7 @@ void JumpMap::find_constants(const JumpMap* before) {
 void JumpMap::add(std::vector<ReducedEvent>& events, const FlowEvent& event) {
   switch (event.kind) {
     case FlowEvent::Kind::Assignment:
-      if (!events.empty()) events.back().assigned |= register_bit(event.reg);
+      add_assignments(events, register_bit(event.reg));
       break;
     case FlowEvent::Kind::Label:
       events.push_back({.kind = event.kind, .label = event.label});

@@ -154,6 +154,9 @@ class JumpMap {
     std::size_t target = kNone;  // Its index among those that jumps name. Set by follow().
   };
   static void add(std::vector<ReducedEvent>& events, const FlowEvent& event);
+  static void add_assignments(std::vector<ReducedEvent>& events, RegisterSet registers) {
+    if (!events.empty()) events.back().assigned |= registers;
+  }
   struct Reads {
     RegisterSet after = 0;
     RegisterSet at_target = 0;
