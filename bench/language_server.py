@@ -170,6 +170,35 @@ def measure_kind(arguments, kind, table):
     server.stop()
 
 
+def measure_together(arguments, table):
+    """Several programs open in one server, one of each kind in turn, and edits in one after the other."""
+    kinds = [KINDS[i % len(KINDS)] for i in range(arguments.together)]
+    texts = {kind: editor.corpus(arguments.build, kind, arguments.lines).decode() for kind in set(kinds)}
+    server = Server(arguments.build / "bin/isols")
+    before = server.anonymous_bytes()
+    opened = []
+    for i, kind in enumerate(kinds):
+        uri = f"file:///bench/{i}.iso"
+        start = server.open(uri, texts[kind])
+        opened.append(server.wait_for_diagnostics(uri, 1) - start)
+    size = server.anonymous_bytes() - before - sum(len(texts[kind]) for kind in kinds)
+    name = f"{len(kinds)} programs of {arguments.lines} lines"
+    table.add(name, "open to diagnostics, the slowest", max(opened), OPEN_S, "s")
+    table.add(name, "memory over the text, a line", size / (arguments.lines * len(kinds)), BYTES_PER_LINE, "bytes")
+    lines = {kind: text.split("\n") for kind, text in texts.items()}
+    edits = [digit_edits(f"file:///bench/{i}.iso", lines[kind], len(lines[kind]), arguments.edits) for i, kind in enumerate(kinds)]
+    times = {kind: [] for kind in kinds}
+    for changes in zip(*edits):
+        for kind, (version, change) in zip(kinds, changes):
+            start = time.perf_counter()
+            server.notify("textDocument/didChange", change)
+            times[kind].append(server.wait_for_diagnostics(change["textDocument"]["uri"], version) - start)
+    for kind, each in times.items():
+        table.add(f"{name}, {kind}", "edit to diagnostics, p50", percentile(each, 0.5), EDIT_P50_MS, "ms")
+        table.add(f"{name}, {kind}", "edit to diagnostics, p99", percentile(each, 0.99), EDIT_P99_MS, "ms")
+    server.stop()
+
+
 def measure_beside_big(arguments, table):
     """Requests about one document while a huge one is being opened in another tab."""
     text = editor.corpus(arguments.build, "short", 20_000).decode()
@@ -278,6 +307,7 @@ def main():
     parser.add_argument("--verified", default=",".join(VERIFIED_KINDS), help="kinds that are verified with a setup")
     parser.add_argument("--lines", type=int, default=1_000_000)
     parser.add_argument("--big", type=int, default=10_000_000, help="0 leaves the big program out")
+    parser.add_argument("--together", type=int, default=10, help="programs open at once; 0 leaves them out")
     parser.add_argument("--edits", type=int, default=400)
     parser.add_argument("--build", type=Path, default=editor.BUILD)
     arguments = parser.parse_args()
@@ -286,6 +316,8 @@ def main():
         measure_kind(arguments, kind, table)
     for kind in filter(None, arguments.verified.split(",")):
         measure_verification(arguments, kind, table)
+    if arguments.together:
+        measure_together(arguments, table)
     if arguments.big:
         measure_beside_big(arguments, table)
     return not table.missed
