@@ -18,7 +18,7 @@ static constexpr Text kWrongVgpl{"--vgpl takes a plain number, such as -2.5, not
 std::optional<double> read_decimal(std::string_view text) {
   if (text.empty() || text.find_first_not_of("+-.0123456789") != std::string_view::npos) return std::nullopt;
   const syntax::Number number = syntax::scan_number(text.data(), text.data() + text.size());
-  if (number.malformed || std::isnan(number.value)) return std::nullopt;
+  if (number.has(syntax::Number::kMalformed) || std::isnan(number.value)) return std::nullopt;
   return number.value;
 }
 

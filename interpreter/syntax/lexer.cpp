@@ -77,16 +77,14 @@ Word& LineParser::add_word(char letter, const char* begin, const char* end) {
   return added;
 }
 
-static std::uint8_t flags_of(const Number& number) {
-  return static_cast<std::uint8_t>((number.is_signed ? Word::kSigned : 0) | (number.has_point ? Word::kPoint : 0) |
-                                   (number.malformed ? Word::kMalformed : 0));
-}
+static_assert(Number::kSigned == Word::kSigned && Number::kPoint == Word::kPoint &&
+              Number::kMalformed == Word::kMalformed);
 
 Word& LineParser::add_word(char letter, const char* begin, const Number& number) {
   Word& added = add_word(letter, begin, number.end);
   added.value = number.value;
   added.digits = number.digits;
-  added.flags = flags_of(number);
+  added.flags = number.flags;
   return added;
 }
 
@@ -108,12 +106,12 @@ const char* LineParser::lex_word(const char* start) {
 const char* LineParser::lex_with_number(const char* start, const char* p) {
   const Number number = scan_number(p, end_);
   const char letter = text::upper(*start);
-  if (number.malformed && !in_condition_) {
+  if (number.has(Number::kMalformed) && !in_condition_) {
     const char* const after = number.digits == 0 ? lex_formula(start, number.end) : lex_corner(start, p, number.end);
     if (after) return after;
   }
   add_word(letter, start, number);
-  if (number.malformed && !in_condition_ && !has_own_code(letter)) report_number(p, number.end);
+  if (number.has(Number::kMalformed) && !in_condition_ && !has_own_code(letter)) report_number(p, number.end);
   if (p != start + 1 || number.has_more_inside(p)) note_comments_inside(start, number.end);
   end_target();
   return number.end;
@@ -224,7 +222,7 @@ const char* LineParser::lex_corner(const char* start, const char* p, const char*
   const char* const size = skip_space(corner + 1);
   if ((letter != 'C' && letter != 'R') || size == end_ || !text::is_number_char(*size)) return nullptr;
   const Number number = scan_number(p, comma);
-  if (number.malformed) return nullptr;
+  if (number.has(Number::kMalformed)) return nullptr;
   add_word(text::upper(*start), start, number);
   const char* const end = scan_number(size, end_).end;
   Word& added = add_word(letter, corner, end);
@@ -358,7 +356,7 @@ const char* LineParser::lex_equals(const char* p) {
   }
   const Number number = scan_number(at, end_);
   add_word(kAssign, p, number);
-  if (number.malformed) report_number(at, number.end);
+  if (number.has(Number::kMalformed)) report_number(at, number.end);
   note_comments_inside(p, number.end);
   return number.end;
 }
@@ -462,7 +460,7 @@ const char* LineParser::lex_unknown(const char* p) {
   Word& added = add_word(kError, start, after);
   added.value = number.value;
   added.digits = number.digits;
-  added.flags = flags_of(number);
+  added.flags = number.flags;
   if (!in_condition_ && beside != BesideNumber::InItsPlace)
     report(
         cause_of_unknown(text_of(added.span()), beside == BesideNumber::Continues && text::is_number_char(start[-1])),

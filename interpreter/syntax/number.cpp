@@ -15,7 +15,7 @@ static bool continues(const char* p, const char* end) {
 
 /// Whether the text matches [+-]? digits [. digits?] | [+-]? . digits
 static bool is_well_formed(const std::string& text, const Number& number) {
-  std::size_t at = number.is_signed ? 1 : 0;
+  std::size_t at = number.has(Number::kSigned) ? 1 : 0;
   bool point = false;
   for (; at < text.size(); ++at) {
     if (text[at] == '.' && !point) {
@@ -33,15 +33,17 @@ static Number scan_any_number(const char* p, const char* end) {
   Number number;
   while (p != end && text::is_number_char(*p)) {
     if (text::is_digit(*p)) ++number.digits;
-    if (*p == '.') number.has_point = true;
-    if (*p == '+' || *p == '-') number.is_signed = true;
+    if (*p == '.') number.flags |= Number::kPoint;
+    if (*p == '+' || *p == '-') number.flags |= Number::kSigned;
     text.push_back(*p++);
     number.end = p;
     p = text::skip_space(p, end);
   }
   const bool sign_first = text[0] == '+' || text[0] == '-';
-  number.malformed = (number.is_signed && !sign_first) || !is_well_formed(text, number);
-  if (number.malformed) return number;
+  if ((number.has(Number::kSigned) && !sign_first) || !is_well_formed(text, number)) {
+    number.flags |= Number::kMalformed;
+    return number;
+  }
   const char* const first = text.data() + (text[0] == '+' ? 1 : 0);
   double value = 0;
   fast_float::from_chars(first, text.data() + text.size(), value);
@@ -49,15 +51,14 @@ static Number scan_any_number(const char* p, const char* end) {
   return number;
 }
 
-Number scan_number(const char* p, const char* end) {
-  Number number;
-  if (end - p >= kShortNumberBytes && scan_short_number(p, number) && !continues(number.end, end)) return number;
+/// Reads any number that scan_short_number() does not, or that has more after it.
+[[gnu::noinline]] static Number scan_rarer_number(const char* p, const char* end) {
   const char* const begin = p;
-  number = {};
+  Number number;
   bool negative = false;
   if (*p == '-' || *p == '+') {
     negative = *p == '-';
-    number.is_signed = true;
+    number.flags |= Number::kSigned;
     ++p;
   }
   // The digits are collected in an integer and scaled once. Below 2^53 and 10^22 both are exact, so that the quotient
@@ -72,7 +73,7 @@ Number scan_number(const char* p, const char* end) {
     while (p != end && text::is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
     decimals = static_cast<std::uint32_t>(p - decimals_start);
     number.digits += decimals;
-    number.has_point = true;
+    number.flags |= Number::kPoint;
   }
   number.end = p;
   if (number.digits == 0 || number.digits > 18 || mantissa >= (std::uint64_t{1} << 53) || continues(p, end))
@@ -80,6 +81,12 @@ Number scan_number(const char* p, const char* end) {
   const double magnitude = static_cast<double>(mantissa) / detail::kPowersOfTen[decimals];
   number.value = negative ? 0.0 - magnitude : magnitude;  // -0 is 0.
   return number;
+}
+
+Number scan_number(const char* p, const char* end) {
+  Number number;
+  if (end - p >= kShortNumberBytes && scan_short_number(p, number) && !continues(number.end, end)) return number;
+  return scan_rarer_number(p, end);
 }
 
 }  // namespace isocnc::syntax

@@ -62,11 +62,16 @@ const char* skip_comment(const char* p, const char* end) {
   return text::skip_closed_comment(p, end);
 }
 
-/// Reads a number too long for scan_short_number(). False if it is malformed or has blanks or comments inside.
-bool scan_long_number(const char* p, const char* end, Number& number) {
-  if (!text::is_number_char(*p)) return false;
+/// Reads a number that scan_short_number() does not: after a blank, or a longer one. Without end if it is malformed,
+/// has blanks or comments inside, or ends where the text ends.
+[[gnu::noinline]] Number scan_number_apart(const char* p, const char* end) {
+  Number number;
+  if (text::is_blank(*p)) ++p;
+  if (scan_short_number(p, number)) return number;
+  if (!text::is_number_char(*p)) return {};
   number = scan_number(p, end);
-  return std::isfinite(number.value) && !number.has_more_inside(p);
+  const bool is_plain = std::isfinite(number.value) && !number.has_more_inside(p) && number.end != end;
+  return is_plain ? number : Number{};
 }
 
 }  // namespace
@@ -81,7 +86,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
   const char* const digits = begin + 1;
   Number name;
   Number value;
-  if (end - digits < kShortNumberBytes || !scan_short_number(digits, name) || name.is_signed || name.has_point ||
+  if (end - digits < kShortNumberBytes || !scan_short_number(digits, name) || name.flags != 0 ||
       !dialect::is_register(name.value))
     return nullptr;
   const char* const equals = skip_blanks(name.end);
@@ -113,37 +118,57 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
                     .digits = value.digits,
                     .owner = 0,
                     .letter = kAssign,
-                    .flags = static_cast<std::uint8_t>((value.is_signed ? Word::kSigned : 0) |
-                                                       (value.has_point ? Word::kPoint : 0))});
+                    .flags = value.flags});
   instructions_.push_back({.kind = InstructionKind::Assignment, .flags = Instruction::kFirst, .end = 2});
   return line_end;
 }
 
-/// Reads the line at `begin` into `line` and `words`, if it is plain; `last` is the last place where a word may start.
-/// Returns the end of the line, or null.
+/// Fills in what follows from all words of a plain line. False if its G moves nothing, which the general parser
+/// reports.
+[[gnu::always_inline]] inline bool TreeStore::finish_plain_line(PlainPart& line, std::size_t words,
+                                                                dialect::LetterSet taken) {
+  line.words = static_cast<std::uint16_t>(words);
+  line.plain_arguments = taken & kArguments;
+  if ((taken & (kArguments | kCommand)) == 0) return true;
+  // The motion has all words but the N and an F beside it; its G or its first argument stands first.
+  std::size_t first = (taken & kLineNumber) != 0 ? 1 : 0;
+  std::size_t after = words;
+  line.motion.flags = Instruction::kFirst;
+  if (line.feed >= 0) {
+    const auto feed = static_cast<std::size_t>(line.feed);
+    if (feed == words - 1) --after;
+    if (feed == first) {
+      ++first;
+      line.motion.flags = 0;
+    }
+  }
+  line.motion.command = line.motion.begin = static_cast<std::uint16_t>(first);
+  line.motion.end = static_cast<std::uint16_t>(after);
+  return (taken & kCommand) == 0 || (taken & dialect::kCoordinateLetters) != 0;
+}
+
+/// Reads the line at `begin` into `line` and from `words` on, if it is plain; `last` is the last place where a word may
+/// start. Returns the end of the line and sets `words` to the place after its words, or returns null.
 // NOLINTNEXTLINE(readability-function-cognitive-complexity): its parts would be calls, on every line of every program.
 [[gnu::always_inline]] inline const char* TreeStore::read_plain_line(const char* const begin, const char* const last,
-                                                                     const char* const end, Line& line, Word* words) {
-  static constexpr PlainPart kPlain{.is_plain = true, .motion = {.kind = InstructionKind::Continuation}};
-  static_cast<PlainPart&>(line) = kPlain;
+                                                                     const char* const end, PlainPart& line,
+                                                                     Word*& words) {
+  // Only what finish_plain_line() does not set.
+  line.label = 0;
+  line.comments = 0;
+  line.feed = -1;
+  line.flags = 0;
+  line.is_plain = true;
+  line.motion.kind = InstructionKind::Continuation;
+  line.motion.row = dialect::kUnknownGCode;
+  line.motion.number = 0;
   Word* word = words;
-  const Word* command = nullptr;  // The G, or the first argument.
-  const Word* after = words;      // The place after the last argument.
   dialect::LetterSet taken = 0;
-  for (const char* p = begin; p <= last;) {
+  const char* p = begin;
+  while (p <= last) {
     const LetterRole& role = kRoles[static_cast<unsigned char>(*p)];
     if (role.letter == 0) {
-      if (text::is_line_end(*p)) {
-        line.length = static_cast<std::uint32_t>(p - begin);
-        line.words = static_cast<std::uint16_t>(word - words);
-        line.plain_arguments = taken & kArguments;
-        if (!command) return p;
-        line.motion.begin = line.motion.command = static_cast<std::uint16_t>(command - words);
-        line.motion.end = static_cast<std::uint16_t>(after - words);
-        if (line.motion.command == line.flags / LineTree::kHasLabel) line.motion.flags = Instruction::kFirst;
-        // A motion G needs a coordinate; the general parser reports that it has none.
-        return (taken & kCommand) != 0 && (taken & dialect::kCoordinateLetters) == 0 ? nullptr : p;
-      }
+      if (text::is_line_end(*p)) break;
       if (text::is_blank(*p)) {
         ++p;
         continue;
@@ -155,43 +180,48 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
       p = comment_end;
       continue;
     }
-    const char* digits = p + 1;
-    if (*digits <= ' ' && text::is_blank(*digits)) ++digits;
     Number number;
-    if (!scan_short_number(digits, number) && (!scan_long_number(digits, end, number) || number.end == end))
-      return nullptr;
-    if ((taken & role.letter) != 0) return nullptr;
-    taken |= role.letter;
+    if (!scan_short_number(p + 1, number)) {
+      number = scan_number_apart(p + 1, end);
+      if (!number.end) return nullptr;
+    }
+    // The words are written in parts, since GCC would gather them in a vector first, with more instructions.
     word->value = number.value;
     word->begin = static_cast<std::uint32_t>(p - begin);
-    word->end = static_cast<std::uint32_t>(number.end - begin);
     word->digits = number.digits;
-    const std::uint32_t flags =
-        std::uint32_t{number.is_signed} * Word::kSigned + std::uint32_t{number.has_point} * Word::kPoint;
-    const std::uint32_t tail = role.tail + (flags << kFlagsShift);
+    if ((taken & role.letter) != 0) return nullptr;
+    word->end = static_cast<std::uint32_t>(number.end - begin);
+    const std::uint32_t tail = role.tail + (std::uint32_t{number.flags} << kFlagsShift);
     std::memcpy(&word->owner, &tail, sizeof tail);
-    if ((role.letter & kArguments) != 0) {
-      if (!command) command = word;
-      after = word + 1;
-    } else if (role.letter == kFeed) {
-      if (!(number.value > 0)) return nullptr;
-      line.feed = static_cast<std::int32_t>(word - words);
-    } else if (role.letter == kCommand) {
-      if (command || flags != 0 || !dialect::is_motion_number(number.value)) return nullptr;
-      line.motion.kind = InstructionKind::G;
-      line.motion.row = dialect::kGCodeRows[static_cast<std::size_t>(number.value)];
-      command = word;
-    } else {
-      if (word != words || flags != 0 || number.digits > 15) return nullptr;
-      line.flags = LineTree::kHasLabel;
-      line.label = static_cast<std::uint64_t>(number.value);
+    if ((role.letter & kArguments) == 0) {
+      if (role.letter == kFeed) {
+        if (!(number.value > 0)) return nullptr;
+        line.feed = static_cast<std::int32_t>(word - words);
+      } else if (role.letter == kCommand) {
+        if ((taken & kArguments) != 0 || number.flags != 0 || !dialect::is_motion_number(number.value)) return nullptr;
+        line.motion.kind = InstructionKind::G;
+        line.motion.row = dialect::kGCodeRows[static_cast<std::size_t>(number.value)];
+      } else {
+        if (word != words || number.flags != 0 || number.digits > 15) return nullptr;
+        line.flags = LineTree::kHasLabel;
+        line.label = static_cast<std::uint64_t>(number.value);
+      }
     }
+    taken |= role.letter;
     ++word;
     p = number.end;
-    if (*p == ' ') [[likely]]
+    // A branch, which is foreseen: what is read next does not wait for this byte.
+    if (*p == ' ') [[likely]] {
       ++p;
+    } else if (*p == '\n') {
+      break;
+    }
   }
-  return nullptr;
+  if (p > last) return nullptr;
+  line.length = static_cast<std::uint32_t>(p - begin);
+  if (!finish_plain_line(line, static_cast<std::size_t>(word - words), taken)) return nullptr;
+  words = word;
+  return p;
 }
 
 /// Fast path for lines with at most an N, a motion G, coordinates and F, each once and well-formed, as most lines are.
@@ -213,7 +243,6 @@ const char* TreeStore::append_plain_lines(const char* begin, const char* stop, c
       line.first_comment = first_comment;
       first_comment += line.comments;
       first_word += line.words;
-      words += line.words;
       begin = text::skip_line_end(line_end, end);
     }
     lines_.add(read);

@@ -74,15 +74,15 @@ class TreeStore {
 
   struct PlainPart {
     std::uint64_t label = 0;
+    std::uint32_t comments = 0;
+    std::int32_t feed = -1;
     std::uint32_t length = 0;
     std::uint32_t first_word = 0;
     std::uint32_t first_comment = 0;
-    std::uint32_t comments = 0;
-    std::int32_t feed = -1;
+    dialect::LetterSet plain_arguments = 0;
     std::uint16_t words = 0;
     std::uint8_t flags = 0;
     bool is_plain = false;
-    dialect::LetterSet plain_arguments = 0;
     Instruction motion;  ///< Set if there are plain arguments.
   };
   /// For a plain line (LineTree::plain_arguments) only the PlainPart is initialized.
@@ -95,7 +95,8 @@ class TreeStore {
     std::int32_t spindle = -1;
   };
 
-  const char* read_plain_line(const char* begin, const char* last, const char* end, Line& line, Word* words);
+  static bool finish_plain_line(PlainPart& line, std::size_t words, dialect::LetterSet taken);
+  const char* read_plain_line(const char* begin, const char* last, const char* end, PlainPart& line, Word*& words);
 
   Buffer<Line> lines_;
   Buffer<Word> words_;

@@ -69,9 +69,9 @@ inline char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 
 inline std::uint32_t non_digits(const char* p) {
 #ifdef __SSE2__
   const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-  // Digits are 0x30 to 0x39. They, and no other bytes, become the lowest signed numbers, -128 to -119.
-  const __m128i digits_first = _mm_xor_si128(bytes, _mm_set1_epi8(static_cast<char>(0x80 ^ 0x30)));
-  return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpgt_epi8(digits_first, _mm_set1_epi8(-128 + 9))));
+  // Digits become 0 to 9. The highest bit, which movemask takes, is set once anything above 9 is moved up.
+  const __m128i values = _mm_xor_si128(bytes, _mm_set1_epi8('0'));
+  return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_adds_epu8(values, _mm_set1_epi8(0x7F - 9))));
 #else
   std::uint32_t found = 0;
   for (int i = 0; i < 16; ++i) found |= std::uint32_t{!is_digit(p[i])} << i;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "tests/support/random.h"
 
@@ -48,7 +50,7 @@ TEST(Number, HasTheValueThatStrtodGives) {
     const std::string text = random_decimal(random);
     const double expected = std::strtod(text.c_str(), nullptr);
     const Number number = read(text);
-    EXPECT_FALSE(number.malformed) << "seed " << seed << ": " << text;
+    EXPECT_FALSE(number.has(Number::kMalformed)) << "seed " << seed << ": " << text;
     EXPECT_EQ(length_of(number, text), text.size()) << "seed " << seed << ": " << text;
     if (std::isinf(expected)) {
       EXPECT_TRUE(std::isnan(number.value)) << "seed " << seed << ": " << text;
@@ -72,10 +74,10 @@ TEST(Number, MeansTheSameWithBlanksAndCommentsInside) {
     const Number number = read(spaced);
     EXPECT_TRUE(number.value == expected.value || (std::isnan(number.value) && std::isnan(expected.value)))
         << "seed " << seed << ": " << spaced;
-    EXPECT_FALSE(number.malformed) << "seed " << seed << ": " << spaced;
+    EXPECT_FALSE(number.has(Number::kMalformed)) << "seed " << seed << ": " << spaced;
     EXPECT_EQ(number.digits, expected.digits) << "seed " << seed << ": " << spaced;
-    EXPECT_EQ(number.is_signed, expected.is_signed) << "seed " << seed << ": " << spaced;
-    EXPECT_EQ(number.has_point, expected.has_point) << "seed " << seed << ": " << spaced;
+    EXPECT_EQ(number.has(Number::kSigned), expected.has(Number::kSigned)) << "seed " << seed << ": " << spaced;
+    EXPECT_EQ(number.has(Number::kPoint), expected.has(Number::kPoint)) << "seed " << seed << ": " << spaced;
     EXPECT_EQ(length_of(number, spaced), spaced.size()) << "seed " << seed << ": " << spaced;
   }
 }
@@ -93,11 +95,11 @@ class WellFormed : public testing::TestWithParam<Spelling> {};
 TEST_P(WellFormed, IsReadAsWritten) {
   const Spelling& expected = GetParam();
   const Number number = read(expected.text);
-  EXPECT_FALSE(number.malformed);
+  EXPECT_FALSE(number.has(Number::kMalformed));
   EXPECT_EQ(number.value, expected.value);
   EXPECT_EQ(number.digits, expected.digits);
-  EXPECT_EQ(number.is_signed, expected.is_signed);
-  EXPECT_EQ(number.has_point, expected.has_point);
+  EXPECT_EQ(number.has(Number::kSigned), expected.is_signed);
+  EXPECT_EQ(number.has(Number::kPoint), expected.has_point);
 }
 
 INSTANTIATE_TEST_SUITE_P(Spellings, WellFormed,
@@ -115,7 +117,7 @@ class Malformed : public testing::TestWithParam<const char*> {};
 TEST_P(Malformed, IsNoNumberYetReadToItsEnd) {
   const std::string text = GetParam();
   const Number number = read(text + " X1");
-  EXPECT_TRUE(number.malformed);
+  EXPECT_TRUE(number.has(Number::kMalformed));
   EXPECT_TRUE(std::isnan(number.value));
   EXPECT_EQ(length_of(read(text), text), text.size());
 }
@@ -133,6 +135,32 @@ TEST(Number, EndsAfterItsLastCharacter) {
   }
 }
 
+void expect_same_before_more_text(const std::string& text) {
+  const std::string padded = text + "\n" + std::string(20, 'X');
+  const Number expected = read(text);
+  const Number number = scan_number(padded.data(), padded.data() + padded.size());
+  EXPECT_TRUE(number.value == expected.value || (std::isnan(number.value) && std::isnan(expected.value))) << text;
+  EXPECT_EQ(std::signbit(number.value), std::signbit(expected.value)) << text;
+  EXPECT_EQ(number.digits, expected.digits) << text;
+  EXPECT_EQ(number.flags, expected.flags) << text;
+  EXPECT_EQ(length_of(number, padded), length_of(expected, text)) << text;
+}
+
+/// A short number is looked up by its shape, but read digit by digit where the text ends soon after it.
+TEST(Number, IsTheSameWhetherTheTextGoesOn) {
+  constexpr std::string_view kCharacters = "07+-.";
+  std::vector<std::string> spellings = {""};
+  for (std::size_t i = 0; i < spellings.size(); ++i) {
+    if (!spellings[i].empty()) expect_same_before_more_text(spellings[i]);
+    if (spellings[i].size() == 5) continue;
+    for (const char c : kCharacters) spellings.push_back(spellings[i] + c);
+  }
+  for (const std::uint64_t seed : support::seeds(20'000)) {
+    Random random(seed);
+    expect_same_before_more_text(random_decimal(random));
+  }
+}
+
 /// However it is spelled: programs that mean the same give the same trace.
 TEST(Number, MinusZeroIsZero) {
   for (const std::string zero : {"-0", "- 0", "-0.", "-.0", "-(a)0", "-0.000000000", "-00000000000000000000"})
@@ -141,7 +169,7 @@ TEST(Number, MinusZeroIsZero) {
 
 TEST(Number, BeyondADoubleIsUnknownAndTooSmallIsZero) {
   EXPECT_TRUE(std::isnan(read(std::string(400, '9')).value));
-  EXPECT_FALSE(read(std::string(400, '9')).malformed);
+  EXPECT_FALSE(read(std::string(400, '9')).has(Number::kMalformed));
   EXPECT_EQ(read("." + std::string(400, '0') + "1").value, 0);
 }
 
