@@ -83,14 +83,17 @@ static const execution::Lack* lack_of_any(const Groups& live) {
 }
 
 /// Records a line executed by a plain run. Under G91 only the words of an arc matter, under G90 its start as well.
+/// `named` collects the letters of the arguments under G90: at the end of the run their axes are set.
 [[gnu::always_inline]] static inline void note_plain_move(const PlainLine& line, const execution::PlainRun& run,
-                                                          const execution::State& state, PositionUse& use) {
+                                                          const execution::State& state, PositionUse& use,
+                                                          dialect::LetterSet& named) {
   if (run.is_incremental()) {
     use.far |= is_far(state.position);
     return;
   }
-  if (run.was_arc()) use.read |= static_cast<execution::AxisSet>(execution::kLinearAxes & ~use.set);
-  use.set |= execution::axes_of(line.arguments);
+  if (run.was_arc())
+    use.read |= static_cast<execution::AxisSet>(execution::kLinearAxes & ~(use.set | execution::axes_of(named)));
+  named |= line.arguments;
 }
 
 /// Records the folds that a run of plain lines ends.
@@ -112,6 +115,11 @@ static void note_house_rules(const rules::HouseRules& house, PositionUse& use) {
     use.read |= static_cast<execution::AxisSet>(execution::axis_bit(execution::Axis::Z) & ~use.set);
 }
 
+/// Whether a line has its number alone, and comments: a line that changes nothing.
+static bool is_number_alone(const PlainLine& line) {
+  return line.arguments == 0 && line.feed < 0 && !line.words.empty();
+}
+
 template <class PlainLineAt>
 std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Outcome& outcome,
                                  PlainLineAt plain_line_at) {
@@ -124,17 +132,25 @@ std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Out
   execution::PlainRun run(group.state, setup_.machine, suspects_centers_);
   PositionUse use = outcome.positions;
   if (house_) note_house_rules(*house_, use);
+  const bool may_be_target = !jumps_.empty();
+  const bool skips_numbers = run.may_run() && !(house_ && house_->watches_comments());
+  dialect::LetterSet named = 0;
   std::size_t done = 0;
   for (; done < count; ++done) {
     const PlainLine line = plain_line_at(done);
-    if (guard.is_active && guard.stops_at(line, state)) break;
-    if ((line.has_label && jumps_.names(line.label)) || !run.run(line)) break;
-    note_plain_move(line, run, state, use);
+    if (guard.is_active && guard.stops_at(line.words, line.feed, state)) break;
+    if (line.has_label && may_be_target && jumps_.names(line.label)) break;
+    if (!run.run(line)) {
+      if (skips_numbers && is_number_alone(line)) continue;
+      break;
+    }
+    note_plain_move(line, run, state, use, named);
   }
   outcome.centers.open |= run.met_open_center();
   if (done == 0) return 0;
+  use.set |= execution::axes_of(named);
   group.memory.take(run, state);
-  if (house_) house_->take(run, state, group.house);
+  if (house_ && run.has_run()) house_->take(run, state, group.house);
   note_plain_feed(run, state, line_number, outcome);
   outcome.has_text = true;
   outcome.last_text_line = line_number + done - 1;
@@ -158,8 +174,8 @@ void Checker::check_all(const syntax::ChunkTrees& trees, Outcome& outcome) {
 }
 
 void Checker::check(const LineTree& line, std::size_t line_number, Outcome& outcome) {
-  if (check_plain(1, line_number, outcome, [&](std::size_t) { return line.plain(); }) == 0)
-    check_any(line, line_number, outcome);
+  const auto plain_line = [&](std::size_t) { return line.plain_arguments == 0 ? PlainLine{} : line.plain(); };
+  if (check_plain(1, line_number, outcome, plain_line) == 0) check_any(line, line_number, outcome);
 }
 
 /// Checks two blocks whose line break is lost, one after the other (D68).
@@ -342,13 +358,15 @@ class Checker::LineExecution final : public execution::Sink {
     if (group.memory.judges_plain_motions(group.state)) return false;
     const rules::HouseRules* const house = checker_.house_;
     if (house && (house->judges_plain_motions(group.house, group.state) ||
-                  house->guard(group.house, group.state).stops_at(line_.plain(), group.state)))
+                  house->guard(group.house, group.state).stops_at(line_.words, line_.feed, group.state)))
       return false;
     execution::PlainRun run(group.state, checker_.setup_.machine, checker_.suspects_centers_);
     if (!run.run(line_.plain())) return false;
     if (house) note_house_rules(*house, outcome_.positions);
     outcome_.centers.open |= run.met_open_center();
-    note_plain_move(line_.plain(), run, group.state, outcome_.positions);
+    dialect::LetterSet named = 0;
+    note_plain_move(line_.plain(), run, group.state, outcome_.positions, named);
+    outcome_.positions.set |= execution::axes_of(named);
     group.memory.take(run, group.state);
     if (house) house->take(run, group.state, group.house);
     note_plain_feed(run, group.state, line_number_, outcome_);

@@ -62,14 +62,14 @@ static bool is_of_motion(const HouseEvent& event) {
   return event.kind == EventKind::Motion || event.kind == EventKind::Rapid || event.kind == EventKind::Cut;
 }
 
-bool PlainGuard::stops_at(const syntax::PlainLine& line, const execution::State& state) const {
-  if (line.feed >= 0) {
-    const double feed = line.words[static_cast<std::size_t>(line.feed)].value * mm_per_unit;
-    if (feed < minimum_feed || feed > maximum_feed) return true;
+bool PlainGuard::stops_at(std::span<const syntax::Word> words, std::int32_t feed, const execution::State& state) const {
+  if (feed >= 0) {
+    const double written = words[static_cast<std::size_t>(feed)].value * mm_per_unit;
+    if (written < minimum_feed || written > maximum_feed) return true;
   }
   if (lowest == -std::numeric_limits<double>::infinity()) return false;
   const double here = state.position.tip.z();
-  for (const syntax::Word& word : line.words) {
+  for (const syntax::Word& word : words) {
     if (word.letter != 'Z') continue;
     const double z = word.value * mm_per_unit + (is_incremental ? here : 0);
     if (z < lowest && z < here) return true;

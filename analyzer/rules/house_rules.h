@@ -40,8 +40,8 @@ struct PlainGuard {
   double mm_per_unit = 1;
   bool is_incremental = false;
 
-  /// `state` is that before the line.
-  bool stops_at(const syntax::PlainLine& line, const execution::State& state) const;
+  /// `words` and `feed` are those of the line, `state` is that before it.
+  bool stops_at(std::span<const syntax::Word> words, std::int32_t feed, const execution::State& state) const;
 };
 
 /// The house rules of a configuration, made ready for the check. A line costs one look into a table for each of its

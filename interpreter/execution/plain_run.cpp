@@ -3,20 +3,20 @@
 #include "interpreter/execution/feed.h"
 #include "interpreter/execution/plane.h"
 #include "interpreter/geometry/arc.h"
+#include "interpreter/geometry/increment.h"
 
 namespace isocnc::execution {
 
-using syntax::PlainLine;
 using syntax::Word;
 
 /// Whether a fast test shows that an arc is valid; Executor::arc() decides about the others.
-bool PlainRun::is_sound_arc(const PlainLine& line) {
+bool PlainRun::is_sound_arc(std::span<const Word> words, dialect::LetterSet arguments) {
   const Plane& plane = plane_in_force(state_);
-  const auto has = [&](char letter) { return dialect::contains(line.arguments, letter); };
-  if ((line.arguments & dialect::kRotaryLetters) != 0 || state_.face_mounted || has(plane.stray_center)) return false;
+  const auto has = [&](char letter) { return dialect::contains(arguments, letter); };
+  if ((arguments & dialect::kRotaryLetters) != 0 || state_.face_mounted || has(plane.stray_center)) return false;
   if (!has(plane.u_letter) && !has(plane.v_letter)) return false;
   geometry::ArcGiven arc;
-  for (const Word& word : line.words) {
+  for (const Word& word : words) {
     const double value = word.value * scale_;
     const auto from_start = [&](int axis) { return incremental_ ? value : value - state_.position.tip[axis]; };
     if (word.letter == plane.u_letter) {
@@ -39,8 +39,23 @@ bool PlainRun::is_sound_arc(const PlainLine& line) {
   return !leaves_open_centers_;
 }
 
-void PlainRun::take_feed(const PlainLine& line) {
-  execution::take_feed(line.words[static_cast<std::size_t>(line.feed)].value, state_);
+/// The words of a line under G91.
+void PlainRun::advance_axes(std::span<const Word> words) {
+  const auto move = [](double& position, double change) { position = geometry::advanced(position, change); };
+  for (const Word& word : words) {
+    const auto axis = static_cast<std::uint32_t>(word.letter - 'X');
+    if (axis <= 2) {
+      move(state_.position.tip[static_cast<Eigen::Index>(axis)], word.value * scale_);
+    } else if (word.letter == 'B') {
+      move(state_.position.b, word.value);
+    } else if (word.letter == 'C') {
+      move(state_.position.c, word.value);
+    }
+  }
+}
+
+void PlainRun::take_feed(double number) {
+  execution::take_feed(number, state_);
   feed_holds_ = !state_.inverse_time();
   has_taken_feed_ = true;
 }

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <span>
+
 #include "interpreter/execution/state.h"
-#include "interpreter/geometry/increment.h"
 #include "interpreter/syntax/line_tree.h"
 
 namespace isocnc::execution {
@@ -37,18 +38,22 @@ class PlainRun {
     const bool has_feed = line.feed >= 0;
     if (motion == dialect::GRole::Rapid ? has_feed : !has_feed && !feed_holds_) return false;
     if (motion != dialect::GRole::Rapid && motion != dialect::GRole::Line) {
-      if (motion == kNoMotion || !is_sound_arc(line)) return false;
+      if (motion == kNoMotion || !is_sound_arc(line.words, line.arguments)) return false;
     } else if ((line.arguments & ~straight_) != 0) {
       return false;
     }
     move_axes(line);
-    if (has_feed) take_feed(line);
+    if (has_feed) take_feed(line.words[static_cast<std::size_t>(line.feed)].value);
     motion_ = motion;
     has_run_ = true;
     has_fed_ |= motion != dialect::GRole::Rapid;
     return true;
   }
 
+  /// Whether it can run any line.
+  bool may_run() const { return may_run_; }
+  /// Whether it has run a line.
+  bool has_run() const { return has_run_; }
   bool is_incremental() const { return incremental_; }
   /// Whether there was a feed move.
   bool has_fed() const { return has_fed_; }
@@ -68,20 +73,23 @@ class PlainRun {
       State::bit(dialect::ModalGroup::Distance) | State::bit(dialect::ModalGroup::FeedMode);
 
   [[gnu::always_inline]] void move_axes(const syntax::PlainLine& line) {
+    if (incremental_) return advance_axes(line.words);
+    geometry::Pose& position = state_.position;
     for (const syntax::Word& word : line.words) {
-      const std::ptrdiff_t axis = word.letter - 'X';
-      if (axis >= 0 && axis <= 2) [[likely]] {
-        move(state_.position.tip[axis], word.value * scale_);
-      } else if (word.letter == 'B' || word.letter == 'C') {
-        move(word.letter == 'B' ? state_.position.b : state_.position.c, word.value);
+      const auto axis = static_cast<std::uint32_t>(word.letter - 'X');
+      if (axis <= 2) [[likely]] {
+        position.tip[static_cast<Eigen::Index>(axis)] = word.value * scale_;
+      } else if (word.letter == 'B') {
+        position.b = word.value;
+      } else if (word.letter == 'C') {
+        position.c = word.value;
       }
     }
   }
-  void move(double& position, double value) const {
-    position = incremental_ ? geometry::advanced(position, value) : value;
-  }
-  bool is_sound_arc(const syntax::PlainLine& line);
-  void take_feed(const syntax::PlainLine& line);
+  // These do not take the line itself, since a reference to it would keep it in memory, and out of the registers.
+  void advance_axes(std::span<const syntax::Word> words);
+  bool is_sound_arc(std::span<const syntax::Word> words, dialect::LetterSet arguments);
+  void take_feed(double number);
   void finish();
 
   State& state_;

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "analyzer/check/check_text.h"
+#include "analyzer/check/checker.h"
+#include "interpreter/text/characters.h"
 #include "tests/support/random_program.h"
 #include "tests/support/report_text.h"
 
@@ -55,6 +58,59 @@ TEST(CheckTextProperty, LineEndsChangeNothing) {
     EXPECT_EQ(support::texts_of(check(support::joined(lines, "\r"))), expected) << "seed " << seed << ", CR";
     EXPECT_EQ(support::texts_of(check(support::joined(lines, "\r\n"))), expected) << "seed " << seed << ", CRLF";
   }
+}
+
+/// A program with rows of motions, and numbers alone among them.
+std::string program_of_rows(Random& random) {
+  std::vector<std::string> lines = RandomProgram(random).lines(random.between(1, 60));
+  for (std::string& line : lines) {
+    if (random.one_in(5)) line = random.any_of({"N900", "N7 ; note", "N5 (note)", "; note", ""});
+    if (random.one_in(9)) line = "M08";
+    if (random.one_in(4)) line = random.any_of({"X1", "G1 Y2", "Z3"});
+  }
+  return support::joined(lines);
+}
+
+/// Rows of lines are checked at once. That must be as if each line was checked by itself, by the way of all lines.
+TEST(CheckTextProperty, RowsGiveWhatTheirLinesGive) {
+  const dialect::HouseWatch watch{.rule = "coolant",
+                                  .reported = {{.kind = dialect::HouseEvent::Kind::M, .number = 8}},
+                                  .started = {{.kind = dialect::HouseEvent::Kind::Motion}}};
+  const auto house_rules = std::make_shared<rules::HouseRules>(std::vector{watch});
+  std::size_t in_rows = 0;
+  for (const std::uint64_t seed : support::seeds(1'000)) {
+    Random random(seed);
+    rules::CheckSetup setup;
+    if (random.one_in(2)) setup.house_rules = house_rules;
+    const std::string program = program_of_rows(random);
+    const char* const end = program.data() + program.size();
+    const JumpMap jumps(program);
+    syntax::TreeStore trees;
+    trees.append_lines(program.data(), end, end);
+    Checker by_rows(setup, jumps);
+    Checker by_lines(setup, jumps);
+    Outcome of_rows;
+    Outcome of_lines;
+    const char* start = program.data();
+    for (std::size_t line = 0; line < trees.size(); ++line) {
+      for (std::size_t done = by_rows.check_plain_lines(trees, line, line, of_rows); done > 0; --done, ++line) {
+        by_lines.check_any(trees.tree(line, start), line, of_lines);
+        start = text::skip_line_end(start + trees.length(line), end);
+        ++in_rows;
+      }
+      ASSERT_TRUE(by_rows.frontier == by_lines.frontier) << "seed " << seed << ", line " << line;
+      if (line == trees.size()) break;
+      by_rows.check_any(trees.tree(line, start), line, of_rows);
+      by_lines.check_any(trees.tree(line, start), line, of_lines);
+      start = text::skip_line_end(start + trees.length(line), end);
+    }
+    EXPECT_EQ(of_rows.last_text_line, of_lines.last_text_line) << "seed " << seed;
+    EXPECT_EQ(of_rows.has_text, of_lines.has_text) << "seed " << seed;
+    ASSERT_EQ(of_rows.findings.size(), of_lines.findings.size()) << "seed " << seed;
+    for (std::size_t i = 0; i < of_rows.findings.size(); ++i)
+      EXPECT_TRUE(of_rows.findings[i].finding == of_lines.findings[i].finding) << "seed " << seed;
+  }
+  EXPECT_GT(in_rows, 1'000u);
 }
 
 /// A line with blanks put in, and where each of its characters went.
