@@ -33,20 +33,26 @@ static const std::array<RuleSet, kAllParts + 1> kConcerned = [] {
   return concerned;
 }();
 
-/// The parts of a line that rules can register for.
-static unsigned parts_of(const syntax::LineTree& line) {
+/// Looks through a line once, for all rules. Returns its parts that rules can register for, and collects its codes.
+static unsigned survey(const syntax::LineTree& line, Codes& codes) {
+  codes = {.roles = 0, .functions = 0};
   unsigned parts = (line.spindle >= 0 ? kSpindle : 0) | (line.feed >= 0 ? kFeed : 0);
   for (const syntax::Instruction& instruction : line.instructions) {
     switch (instruction.kind) {
       case syntax::InstructionKind::Continuation:
+        parts |= kMotion;
+        break;
       case syntax::InstructionKind::G:
         parts |= instruction.is_motion() ? kMotion : kModal;
+        if (const dialect::GCode* const code = instruction.g()) codes.add(code->role);
         break;
       case syntax::InstructionKind::Function:
         parts |= kFunction;
+        codes.add_m(line.command(instruction));
         break;
       case syntax::InstructionKind::ToolChange:
         parts |= kToolChange;
+        codes.add_m(line.command(instruction));
         break;
       default:
         break;
@@ -56,7 +62,7 @@ static unsigned parts_of(const syntax::LineTree& line) {
 }
 
 void run_rules(ExecutedBlock block, const Memory& memory, execution::Sink& sink) {
-  for (RuleSet rest = kConcerned[parts_of(block.line)]; rest != 0; rest &= rest - 1) {
+  for (RuleSet rest = kConcerned[survey(block.line, block.codes)]; rest != 0; rest &= rest - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(rest));
     block.remembered = memory.of_rule(i);
     kRules[i]->check(block, sink);
@@ -134,13 +140,13 @@ bool ExecutedBlock::has_user_function() const {
   });
 }
 
-const syntax::Word* ExecutedBlock::g(dialect::GRole role) const {
+const syntax::Word* ExecutedBlock::find_g(dialect::GRole role) const {
   for (const syntax::Instruction& instruction : line.instructions)
     if (instruction.is(role)) return &line.command(instruction);
   return nullptr;
 }
 
-const syntax::Word* ExecutedBlock::m(int number) const {
+const syntax::Word* ExecutedBlock::find_m(int number) const {
   for (const syntax::Instruction& instruction : line.instructions) {
     const bool is_m = instruction.kind == syntax::InstructionKind::Function ||
                       instruction.kind == syntax::InstructionKind::ToolChange;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "analyzer/rules/check_setup.h"
 #include "analyzer/rules/memory.h"
 #include "interpreter/execution/sink.h"
@@ -11,6 +14,21 @@ namespace isocnc::rules {
 using namespace dialect::literals;
 using dialect::GRole;
 
+/// The roles of the G and the numbers of the M of a line, one bit each; any, unless they have been collected. Numbers
+/// share the bit of the numbers that differ by 64.
+struct Codes {
+  std::uint64_t roles = ~std::uint64_t{0};
+  std::uint64_t functions = ~std::uint64_t{0};
+
+  static constexpr std::uint64_t bit(unsigned index) { return std::uint64_t{1} << (index % 64); }
+  void add(dialect::GRole role) { roles |= bit(static_cast<unsigned>(role)); }
+  void add_m(const syntax::Word& word) {
+    if (const std::optional<int> number = word.whole()) functions |= bit(static_cast<unsigned>(*number));
+  }
+  bool may_have(dialect::GRole role) const { return (roles & bit(static_cast<unsigned>(role))) != 0; }
+  bool may_have_m(int number) const { return (functions & bit(static_cast<unsigned>(number))) != 0; }
+};
+
 /// A line executed on one path: the input of a lint rule.
 struct ExecutedBlock {
   const syntax::LineTree& line;
@@ -19,6 +37,7 @@ struct ExecutedBlock {
   const execution::Setup& setup;
   const dialect::LintThresholds& thresholds;
   Facts remembered = 0;  ///< The facts of the rule's memory that hold before the line.
+  Codes codes;           ///< What the line has, so that most rules need not look through it.
 
   /// Whether a fact of the rule's memory holds before the line.
   bool holds(Facts fact) const { return (remembered & fact) != 0; }
@@ -29,9 +48,9 @@ struct ExecutedBlock {
   /// Whether the line's motion cuts: G01, G02 or G03, written or in force.
   bool has_feed_move() const;
   /// The first G of this role on the line, or null.
-  const syntax::Word* g(dialect::GRole role) const;
+  const syntax::Word* g(dialect::GRole role) const { return codes.may_have(role) ? find_g(role) : nullptr; }
   /// The M of this number on the line, or null.
-  const syntax::Word* m(int number) const;
+  const syntax::Word* m(int number) const { return codes.may_have_m(number) ? find_m(number) : nullptr; }
   /// Whether the line has a user-defined M.
   bool has_user_function() const;
   /// The last M03, M04 or M05 before a word of the line; 0 if there is none.
@@ -40,6 +59,10 @@ struct ExecutedBlock {
   const syntax::Word& motion_word() const;
   /// The motion's word of this letter, or null.
   const syntax::Word* argument(char letter) const;
+
+ private:
+  const syntax::Word* find_g(dialect::GRole role) const;
+  const syntax::Word* find_m(int number) const;
 };
 
 /// The parts of a line that rules can register for.
