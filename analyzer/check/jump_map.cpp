@@ -120,6 +120,9 @@ static const char* next_o(const char* p, const char* end) {
     const __m128i any = _mm_or_si128(_mm_or_si128(os_at(p), os_at(p + 16)), _mm_or_si128(os_at(p + 32), os_at(p + 48)));
     if (_mm_movemask_epi8(any) != 0) break;
   }
+  for (; end - p >= 16; p += 16)
+    if (const auto found = static_cast<unsigned>(_mm_movemask_epi8(os_at(p))); found != 0)
+      return p + std::countr_zero(found);
 #endif
   return std::find_if(p, end, is_o);
 }
