@@ -16,7 +16,7 @@ void JumpCollector::add(std::size_t line, const FlowEvent& event) {
 
 void JumpCollector::add_jump(std::size_t line, const syntax::Jump& jump) {
   sites_.push_back({line, jump});
-  events_.push_back({.kind = FlowEvent::Kind::Jump, .label = jump.target});
+  JumpMap::add_place(events_, FlowEvent::Kind::Jump, jump.target);
 }
 
 JumpMap JumpCollector::finish() && {

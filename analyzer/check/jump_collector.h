@@ -18,7 +18,7 @@ class JumpCollector {
   void add(std::size_t line, const FlowEvent& event);
   /// The same for each kind of event.
   void add_assignments(RegisterSet registers) { JumpMap::add_assignments(events_, registers); }
-  void add_label(std::uint64_t label) { events_.push_back({.kind = FlowEvent::Kind::Label, .label = label}); }
+  void add_label(std::uint64_t label) { JumpMap::add_place(events_, FlowEvent::Kind::Label, label); }
   void add_jump(std::size_t line, const syntax::Jump& jump);
 
   /// The map of all events added. It knows the labels.

@@ -264,10 +264,10 @@ void JumpMap::add(std::vector<ReducedEvent>& events, const FlowEvent& event) {
       add_assignments(events, register_bit(event.reg));
       break;
     case FlowEvent::Kind::Label:
-      events.push_back({.kind = event.kind, .label = event.label});
+      add_place(events, event.kind, event.label);
       break;
     case FlowEvent::Kind::Jump:
-      events.push_back({.kind = event.kind, .label = event.jump.target});
+      add_place(events, event.kind, event.jump.target);
       break;
   }
 }

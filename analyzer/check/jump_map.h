@@ -154,6 +154,10 @@ class JumpMap {
     std::size_t target = kNone;  // Its index among those that jumps name. Set by follow().
   };
   static void add(std::vector<ReducedEvent>& events, const FlowEvent& event);
+  /// A label, or a jump to it.
+  static void add_place(std::vector<ReducedEvent>& events, FlowEvent::Kind kind, std::uint64_t label) {
+    events.push_back({.kind = kind, .label = label});
+  }
   static void add_assignments(std::vector<ReducedEvent>& events, RegisterSet registers) {
     if (!events.empty()) events.back().assigned |= registers;
   }
