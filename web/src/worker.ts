@@ -7,6 +7,7 @@ import { Conversation } from './conversation';
 import makeModule from './glue';
 import type { Module, ModuleOptions, Program, Server } from './module';
 import { filesIn, runOnText, type Outcome } from './streams';
+import { throwToPage } from './uncaught';
 
 export interface Start {
   server: Server;
@@ -106,11 +107,6 @@ scope.onmessage = ({ data }) => {
   if (started) void started.then((take) => take(data), () => undefined);
   else {
     started = start(data as Start);
-    // A page hears of errors, but not of promises.
-    started.catch((failure: unknown) =>
-      setTimeout(() => {
-        throw failure;
-      }),
-    );
+    started.catch(throwToPage);
   }
 };

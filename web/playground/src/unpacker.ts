@@ -1,5 +1,6 @@
 /** A worker that gets the WebAssembly module, compressed with xz, and answers with what the browser has compiled of it. */
 import { XzReadableStream } from 'xz-decompress';
+import { throwToPage } from '../../src/uncaught';
 
 const scope = globalThis as unknown as { onmessage: (event: { data: Uint8Array<ArrayBuffer> }) => void; postMessage(message: WebAssembly.Module): void };
 
@@ -10,12 +11,5 @@ const compile = (packed: Uint8Array<ArrayBuffer>) =>
   );
 
 scope.onmessage = ({ data }) => {
-  compile(data).then(
-    (compiled) => scope.postMessage(compiled),
-    // A page hears of errors, but not of promises.
-    (failure: unknown) =>
-      setTimeout(() => {
-        throw failure;
-      }),
-  );
+  compile(data).then((compiled) => scope.postMessage(compiled), throwToPage);
 };
