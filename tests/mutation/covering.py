@@ -1,7 +1,9 @@
 """Which tests reach which mutants, and which of these a test notices."""
 
+import bisect
 import collections
 import dataclasses
+import itertools
 import json
 import math
 import os
@@ -15,6 +17,8 @@ from pathlib import Path
 
 LEFT_OUT = "architecture_tests"  # Their own subject is the sources.
 MEMORY = 8 << 30  # Bytes: a mutant may go on for ever.
+IDLE_SECONDS = 30  # Of a test that waits and does nothing.
+QUICK_SECONDS = 1
 FILTER_BYTES = 100_000  # A variable of the environment holds 128 KiB at most.
 
 
@@ -39,8 +43,8 @@ class Outcome:
 
 
 def run(program, folder, seconds, **variables):
-    """Whether a program ends with 0, and how long it took. Each of its processes may take this much processor time, so that a busy machine
-    changes no result, and all of it ten times as long, as a process may wait for ever."""
+    """Whether a program ends with 0, or as skipped, and how long it took. Each of its processes may take this much processor time, so that a busy machine
+    changes no result, and all of it ten times as long. One that waits for ever is ended sooner."""
     begin = time.perf_counter()
     with tempfile.TemporaryDirectory() as temporary:
         process = subprocess.Popen(
@@ -52,16 +56,40 @@ def run(program, folder, seconds, **variables):
             stderr=subprocess.DEVNULL,
             start_new_session=True,
         )
-        try:
-            passes = process.wait(10 * seconds) == 0
-        except subprocess.TimeoutExpired:
-            passes = False
+        passes = ends_in_time(process, begin + 10 * seconds) and process.returncode in (0, 77)
         try:
             os.killpg(process.pid, signal.SIGKILL)  # With all that it has started.
         except ProcessLookupError:
             pass
         process.wait()
     return passes, time.perf_counter() - begin
+
+
+def ends_in_time(process, deadline):
+    """Waits for a process. False where it still runs at the deadline, or where neither it nor what it has started takes any processor time for long."""
+    used = -1
+    worked = time.perf_counter()
+    while (now := time.perf_counter()) < deadline and now < worked + IDLE_SECONDS:
+        try:
+            process.wait(1)
+            return True
+        except subprocess.TimeoutExpired:
+            if (ticks := processor_ticks(process.pid)) != used:
+                used, worked = ticks, time.perf_counter()
+    return False
+
+
+def processor_ticks(group):
+    """What all processes of a group have taken."""
+    ticks = 0
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rpartition(")")[2].split()
+        except OSError:  # It has just ended.
+            continue
+        if int(fields[2]) == group:
+            ticks += sum(map(int, fields[11:15]))
+    return ticks
 
 
 class Tests:
@@ -116,20 +144,26 @@ class Tests:
 
 
 def runs_of(tests, seconds_of, module, seconds):
-    """The tests as lists of cases of one program, and the time that these take: those of the module first, then those that take least, as far as the
-    time goes."""
+    """The tests as lists of cases of one program, and the time that these take, as far as the time goes: first what is quick in each program, which notices
+    most mutants, then the rest; within both, the tests of the module first."""
     by_program = collections.defaultdict(list)
-    for test in tests:
+    for test in sorted(tests, key=lambda test: seconds_of[test]):
         by_program[test.program].append(test)
+    quick, slow = [], []
+    for those in by_program.values():
+        sums = list(itertools.accumulate(seconds_of[test] for test in those))
+        count = bisect.bisect_right(sums, QUICK_SECONDS)
+        quick.append(those[:count])
+        slow.append(those[count:])
 
     def rank(those):
         is_own = Path(those[0].program).name.startswith(f"{module}_")
         return not is_own, sum(seconds_of[test] for test in those)
 
     left = seconds
-    for those in sorted(by_program.values(), key=rank):
+    for those in sorted(filter(None, quick), key=rank) + sorted(filter(None, slow), key=rank):
         chosen = []
-        for test in sorted(those, key=lambda test: seconds_of[test]):
+        for test in those:
             if seconds_of[test] > left or sum(len(each.case) + 1 for each in chosen) > FILTER_BYTES:
                 break
             left -= seconds_of[test]
@@ -144,7 +178,7 @@ def outcome_of(number, mutant, tests, seconds):
     for chosen, expected in runs_of(reaching, tests.seconds, module, seconds):
         cases = ":".join(test.case for test in chosen)
         variables = {"ISOCNC_MUTANT": str(number), "GTEST_FILTER": cases, "GTEST_FAIL_FAST": "1"}
-        passes, _ = run(chosen[0].program, chosen[0].folder, 10 + 2 * expected, **variables)
+        passes, _ = run(chosen[0].program, chosen[0].folder, 5 + 3 * expected, **variables)
         if not passes:
             return Outcome("noticed", Path(chosen[0].program).name, len(reaching))
     return Outcome("survived", "", len(reaching))

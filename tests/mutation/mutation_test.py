@@ -8,11 +8,14 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.dont_write_bytecode = True
+
+import covering  # noqa: E402
 
 try:
     import mutants as mutation
@@ -162,6 +165,27 @@ class Mutants(unittest.TestCase):
             numbered = mutation.those_that_compile(self.root, self.copy, mutation.sample(found, 1000, 1), ["g++", "-std=c++20", f"-I{ROOT}"], 1)
         self.assertEqual(numbered, {})
         self.assertIn("a.cpp does not compile", said.getvalue())
+
+
+class Runs(unittest.TestCase):
+    def test_begin_with_what_is_quick(self):
+        tests = [covering.Test(program, "", case) for program, case in [("other_tests", "a"), ("own_tests", "b"), ("own_tests", "c"), ("other_tests", "d")]]
+        seconds = dict(zip(tests, [0.1, 0.5, 5, 3], strict=True))
+        runs = [[test.case for test in chosen] for chosen, _ in covering.runs_of(tests, seconds, "own", 60)]
+        self.assertEqual(runs, [["b"], ["a"], ["c"], ["d"]])
+        runs = [[test.case for test in chosen] for chosen, _ in covering.runs_of(tests, seconds, "own", 4)]
+        self.assertEqual(runs, [["b"], ["a"], ["d"]])
+
+    def test_of_what_waits_for_ever_are_ended(self):
+        with unittest.mock.patch.object(covering, "IDLE_SECONDS", 2):
+            passes, seconds = covering.run("/bin/cat", "/", 60)  # Whose input is empty.
+            self.assertTrue(passes)
+            script = Path(self.enterContext(tempfile.TemporaryDirectory())) / "waits"
+            script.write_text("#!/bin/sh\nsleep 60\n")
+            script.chmod(0o700)
+            passes, seconds = covering.run(str(script), "/", 60)
+            self.assertFalse(passes)
+            self.assertLess(seconds, 30)
 
 
 if __name__ == "__main__":
