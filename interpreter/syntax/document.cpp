@@ -11,16 +11,38 @@ namespace isocnc::syntax {
 static constexpr std::size_t kChunkLines = 128;
 static constexpr std::size_t kMaxChunkLines = 2 * kChunkLines;
 
-struct Document::Chunk {
-  std::string text;                   // Lines with terminators.
-  std::vector<std::uint32_t> begins;  // Offsets of the lines in `text`.
+/// Line ends after the text of each chunk, so that its last lines are plain for the parser as well, which reads a
+/// little ahead.
+static constexpr std::string_view kPadding = "\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n";
 
-  std::size_t lines() const { return begins.size(); }
-  std::string_view with_terminator(std::size_t line) const {
-    const std::size_t begin = begins[line];
-    const std::size_t end = line + 1 < begins.size() ? begins[line + 1] : text.size();
-    return std::string_view(text).substr(begin, end - begin);
+class Document::Chunk {
+ public:
+  /// Starts a new line.
+  void add(std::string_view line_with_terminator) {
+    begins_.push_back(static_cast<std::uint32_t>(text_.size()));
+    text_ += line_with_terminator;
   }
+  /// To be called once, after the last line.
+  void pad() { text_ += kPadding; }
+  void clear() {
+    text_.clear();
+    begins_.clear();
+  }
+
+  std::size_t lines() const { return begins_.size(); }
+  std::string_view text() const { return std::string_view(text_).substr(0, text_.size() - kPadding.size()); }
+  std::string_view with_terminator(std::size_t line) const {
+    return {start_of(line), static_cast<std::size_t>(start_of(line + 1) - start_of(line))};
+  }
+  /// The start of a line, or the end of the last one.
+  const char* start_of(std::size_t line) const {
+    return text_.data() + (line < begins_.size() ? begins_[line] : text_.size() - kPadding.size());
+  }
+  const char* end_of_padding() const { return text_.data() + text_.size(); }
+
+ private:
+  std::string text_;                   // Lines with terminators, and the padding.
+  std::vector<std::uint32_t> begins_;  // Offsets of the lines in the text.
 };
 
 Document::Document(Document&&) noexcept = default;
@@ -34,7 +56,7 @@ std::size_t Document::chunk_lines(std::size_t chunk) const {
   return chunk + 1 < chunks_.size() ? chunks_[chunk + 1].first_line - chunks_[chunk].first_line
                                     : chunks_[chunk].chunk->lines();
 }
-std::string_view Document::chunk_text(std::size_t chunk) const { return chunks_[chunk].chunk->text; }
+std::string_view Document::chunk_text(std::size_t chunk) const { return chunks_[chunk].chunk->text(); }
 
 Document::Place Document::locate(std::size_t line) const {
   const auto after =
@@ -47,7 +69,7 @@ Document::Place Document::locate(std::size_t line) const {
 DocumentLine Document::line(std::size_t index) const {
   const Place place = locate(index);
   const Chunk& chunk = *chunks_[place.chunk].chunk;
-  return {chunk.text.data() + chunk.begins[place.line], chunk.text.data() + chunk.text.size()};
+  return {chunk.start_of(place.line), chunk.end_of_padding()};
 }
 
 std::string_view Document::text_of_line(std::size_t index) const {
@@ -67,7 +89,7 @@ std::string_view Document::terminator(std::size_t line) const {
 
 std::string Document::text() const {
   std::string all;
-  for (const ChunkEntry& entry : chunks_) all += entry.chunk->text;
+  for (const ChunkEntry& entry : chunks_) all += entry.chunk->text();
   return all;
 }
 
@@ -107,8 +129,7 @@ class Document::ChunkMaker {
 
   void add(std::string_view line) {
     if (gathered_.lines() >= max_lines_) end_chunk();
-    gathered_.begins.push_back(static_cast<std::uint32_t>(gathered_.text.size()));
-    gathered_.text += line;
+    gathered_.add(line);
   }
   std::vector<ChunkEntry> finish() {
     if (gathered_.lines() > 0) end_chunk();
@@ -117,9 +138,9 @@ class Document::ChunkMaker {
 
  private:
   void end_chunk() {
+    gathered_.pad();
     chunks_.push_back({.version = next_version_++, .chunk = std::make_unique<Chunk>(gathered_)});
-    gathered_.text.clear();
-    gathered_.begins.clear();
+    gathered_.clear();
   }
 
   const std::size_t max_lines_;
@@ -183,14 +204,13 @@ void Document::renumber(std::size_t first, std::size_t count) {
 }
 
 void ChunkTrees::read(const Document& document, std::size_t chunk, std::size_t lines) {
-  const std::string_view text = document.chunk_text(chunk);
-  const char* const end = text.data() + text.size();
+  chunk_ = document.chunks_[chunk].chunk.get();
+  const char* const end = chunk_->end_of_padding();
   store_.clear();
-  texts_.clear();
-  for (const char* p = text.data(); texts_.size() < lines;) {
-    texts_.push_back(p);
-    p = text::skip_line_end(store_.append_line(p, end), end);
-  }
+  store_.append_lines(chunk_->start_of(0), chunk_->start_of(lines), end);
+  if (store_.size() < lines) store_.append_line(chunk_->start_of(lines), end);  // The empty last line of a document.
 }
+
+LineTree ChunkTrees::operator[](std::size_t index) const { return store_.tree(index, chunk_->start_of(index)); }
 
 }  // namespace isocnc::syntax

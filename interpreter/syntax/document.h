@@ -87,7 +87,9 @@ class Document {
   std::uint64_t chunk_version(std::size_t chunk) const { return chunks_[chunk].version; }
 
  private:
-  struct Chunk;
+  friend class ChunkTrees;
+
+  class Chunk;
   class ChunkMaker;
   /// The fields that every edit reads for all chunks, stored contiguously for speed.
   struct ChunkEntry {
@@ -118,13 +120,13 @@ class ChunkTrees {
   /// Parses only the first `lines` lines of the chunk.
   void read(const Document& document, std::size_t chunk, std::size_t lines);
 
-  std::size_t size() const { return texts_.size(); }
+  std::size_t size() const { return store_.size(); }
   const TreeStore& store() const { return store_; }
-  LineTree operator[](std::size_t index) const { return store_.tree(index, texts_[index]); }
+  LineTree operator[](std::size_t index) const;
 
  private:
   TreeStore store_;
-  std::vector<const char*> texts_;
+  const Document::Chunk* chunk_ = nullptr;
 };
 
 }  // namespace isocnc::syntax
