@@ -64,9 +64,11 @@ bool surely_fits(const ArcGiven& given, double tolerance) {
            start2 > 4 * kEqualCoordinate * kEqualCoordinate;
   }
   if (given.center_u || given.center_v || !given.radius) return false;
-  const double diameter2 = 4 * *given.radius * *given.radius;
+  // Half of what a half circle may lack, well clear of any rounding.
+  const double longest = 2 * *given.radius + tolerance / 2;
   const double chord2 = d.u * d.u + d.v * d.v;
-  return *given.radius > 0 && chord2 <= diameter2 * (1 - 1e-12) && chord2 > 4 * kEqualCoordinate * kEqualCoordinate;
+  return *given.radius > 0 && chord2 <= longest * longest * (1 - 1e-12) &&
+         chord2 > 4 * kEqualCoordinate * kEqualCoordinate;
 }
 
 /// Deviation of the ends of an arc, and of its R, from one circle about the center, mm.

@@ -222,6 +222,8 @@ TEST(SurelyFits, KnowsArcsThatLieOnTheirCircle) {
     EXPECT_TRUE(
         surely_fits({.end = arc.end, .center_u = arc.center.u + rounding, .center_v = arc.center.v}, kTolerance));
     EXPECT_TRUE(surely_fits({.end = arc.end, .radius = arc.radius}, kTolerance));
+    const double half_chord = std::floor(arc.end.norm() / 2 * 1'000) / 1'000;  // A half circle, written in microns.
+    EXPECT_TRUE(surely_fits({.end = arc.end, .radius = half_chord}, kTolerance));
   }
 }
 
