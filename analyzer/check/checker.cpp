@@ -115,14 +115,9 @@ static void note_house_rules(const rules::HouseRules& house, PositionUse& use) {
     use.read |= static_cast<execution::AxisSet>(execution::axis_bit(execution::Axis::Z) & ~use.set);
 }
 
-/// Whether a line has its number alone, and comments: a line that changes nothing.
-static bool is_number_alone(const PlainLine& line) {
-  return line.arguments == 0 && line.feed < 0 && !line.words.empty();
-}
-
-template <class PlainLineAt>
+template <class PlainLineAt, class ChangesNothingAt>
 std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Outcome& outcome,
-                                 PlainLineAt plain_line_at) {
+                                 PlainLineAt plain_line_at, ChangesNothingAt changes_nothing_at) {
   if (frontier.live.size() != 1 || checks_moves_) return 0;
   Group& group = frontier.live[0];
   const execution::State& state = group.state;
@@ -133,7 +128,7 @@ std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Out
   PositionUse use = outcome.positions;
   if (house_) note_house_rules(*house_, use);
   const bool may_be_target = !jumps_.empty();
-  const bool skips_numbers = run.may_run() && !(house_ && house_->watches_comments());
+  const bool may_skip = run.may_run() && !(house_ && house_->watches_comments());
   dialect::LetterSet named = 0;
   std::size_t done = 0;
   for (; done < count; ++done) {
@@ -141,7 +136,7 @@ std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Out
     if (guard.is_active && guard.stops_at(line.words, line.feed, state)) break;
     if (line.has_label && may_be_target && jumps_.names(line.label)) break;
     if (!run.run(line)) {
-      if (skips_numbers && is_number_alone(line)) continue;
+      if (may_skip && changes_nothing_at(done)) continue;
       break;
     }
     note_plain_move(line, run, state, use, named);
@@ -162,8 +157,9 @@ std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Out
 
 std::size_t Checker::check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::size_t line_number,
                                        Outcome& outcome) {
-  return check_plain(trees.size() - first, line_number, outcome,
-                     [&](std::size_t index) { return trees.plain(first + index); });
+  return check_plain(
+      trees.size() - first, line_number, outcome, [&](std::size_t index) { return trees.plain(first + index); },
+      [&](std::size_t index) { return trees.changes_nothing(first + index); });
 }
 
 void Checker::check_all(const syntax::ChunkTrees& trees, Outcome& outcome) {
@@ -175,7 +171,8 @@ void Checker::check_all(const syntax::ChunkTrees& trees, Outcome& outcome) {
 
 void Checker::check(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   const auto plain_line = [&](std::size_t) { return line.plain_arguments == 0 ? PlainLine{} : line.plain(); };
-  if (check_plain(1, line_number, outcome, plain_line) == 0) check_any(line, line_number, outcome);
+  const auto changes_nothing = [](std::size_t) { return false; };  // check_any() passes by such a line.
+  if (check_plain(1, line_number, outcome, plain_line, changes_nothing) == 0) check_any(line, line_number, outcome);
 }
 
 /// Checks two blocks whose line break is lost, one after the other (D68).

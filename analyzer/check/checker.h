@@ -39,8 +39,9 @@ class Checker {
  private:
   class LineExecution;
 
-  template <class PlainLineAt>
-  std::size_t check_plain(std::size_t count, std::size_t line_number, Outcome& outcome, PlainLineAt plain_line_at);
+  template <class PlainLineAt, class ChangesNothingAt>
+  std::size_t check_plain(std::size_t count, std::size_t line_number, Outcome& outcome, PlainLineAt plain_line_at,
+                          ChangesNothingAt changes_nothing_at);
   void report_dead_code(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
   void check_two_blocks(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);

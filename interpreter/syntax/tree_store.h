@@ -59,6 +59,11 @@ class TreeStore {
             .has_label = (line.flags & LineTree::kHasLabel) != 0,
             .label = line.label};
   }
+  /// Whether a plain line has a number or comments and nothing else.
+  bool changes_nothing(std::size_t index) const {
+    const Line& line = lines_[index];
+    return line.is_plain && line.plain_arguments == 0 && line.feed < 0 && (line.words > 0 || line.comments > 0);
+  }
   /// Number of bytes of the line's text.
   std::uint32_t length(std::size_t index) const { return lines_[index].length; }
   /// append_line() without its fast path for plain lines: the same trees, but slower. Public for tests, which compare
