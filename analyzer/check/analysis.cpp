@@ -393,12 +393,11 @@ bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::funct
   syntax::ChunkTrees trees;
   for (std::size_t checked = 1; chunk < rows_.size(); ++chunk) {
     if (!rows_[chunk].is_stale) {
-      auto shift = shift_between(before(chunk), checker.frontier);
-      if (shift) {
-        chunk = pass_over(chunk, *shift);
-        if (shift->empty()) return true;
+      if (auto change = change_between(before(chunk), checker.frontier)) {
+        chunk = pass_over(chunk, *change);
+        if (change->empty()) return true;
         checker.frontier = before(chunk);
-        shift->apply(checker.frontier);
+        change->apply(checker.frontier);
         if (chunk == rows_.size()) break;
       }
     }
@@ -413,16 +412,36 @@ bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::funct
   return true;
 }
 
-/// Shifts the chunks from this one on, as long as their findings do not depend on the shifted positions. Returns the
-/// first chunk whose findings do; `shift` is then the shift before that chunk.
-std::size_t Analysis::pass_over(std::size_t chunk, PositionShift& shift) {
-  for (; chunk < rows_.size() && !shift.empty(); ++chunk) {
+/// Whether a chunk gives the same findings after this change, and passes it on.
+bool Analysis::passes(std::size_t chunk, const FrontierChange& change) const {
+  const Row& row = rows_[chunk];
+  if (row.is_stale) return false;
+  const PositionUse& use = row.positions;
+  const execution::AxisSet shifted = change.shift.axes;
+  if (!change.shift.empty() && (use.far || (shifted & use.read) != 0 || (use.by_several && (shifted & use.set) != 0)))
+    return false;
+  if (!change.state) return true;
+  const auto& [before, outcome] = *row.checked;
+  return outcome.only_row && change.state->passes(*outcome.only_row, before.live[0], setup_.house_rules.get());
+}
+
+/// Passes a state over a chunk, whose kept states become these; resets it where it is the same as before the edit.
+void Analysis::pass_state(std::size_t chunk, std::optional<PassedState>& state) {
+  auto& [before, outcome] = *rows_[chunk].checked;
+  const Group& after = (chunk + 1 == rows_.size() ? end_ : rows_[chunk + 1].checked->before).live[0];
+  state->apply(before.live[0]);
+  state->pass(*outcome.only_row, after.state, setup_.house_rules.get());
+  if (state->equals(after)) state.reset();
+}
+
+/// Passes a change over the chunks from this one on, as long as they give the same findings after it. Returns the first
+/// chunk that may not; `change` is then that before it.
+std::size_t Analysis::pass_over(std::size_t chunk, FrontierChange& change) {
+  for (; chunk < rows_.size() && !change.empty(); ++chunk) {
     Row& row = rows_[chunk];
-    const PositionUse& use = row.positions;
-    const bool minds =
-        row.is_stale || use.far || (shift.axes & use.read) != 0 || (use.by_several && (shift.axes & use.set) != 0);
-    if (minds || !row.shift.add(shift)) break;
-    shift.drop(use.set);
+    if (!passes(chunk, change) || !row.shift.add(change.shift)) break;
+    change.shift.drop(row.positions.set);
+    if (change.state) pass_state(chunk, change.state);
   }
   return chunk;
 }

@@ -9,8 +9,8 @@
 
 #include "analyzer/check/checker.h"
 #include "analyzer/check/conclusion.h"
+#include "analyzer/check/frontier_change.h"
 #include "analyzer/check/jump_numbers.h"
-#include "analyzer/check/position_shift.h"
 #include "interpreter/syntax/per_chunk.h"
 
 namespace isocnc::check {
@@ -18,9 +18,10 @@ namespace isocnc::check {
 class JumpCollector;
 
 /// The check of a document that is being edited. It keeps the check's frontier before each chunk of lines. After an
-/// edit it checks the changed chunks, and those after them until the frontier equals the kept one, or differs from it
-/// by a shift of the positions only: chunks whose findings a shift does not change are then skipped. The report equals
-/// that of a fresh check.
+/// edit it checks the changed chunks, and those after them until the frontier equals the kept one. Chunks that pass on
+/// what has changed without another finding are skipped: a shift of positions under G91, and under rows of plain
+/// motions also all that these do not read, such as the tool, the spindle, the compensation or the origin. The report
+/// equals that of a fresh check.
 class Analysis {
  public:
   /// Both must outlive the analysis.
@@ -147,7 +148,9 @@ class Analysis {
   void check_changed_jumps_again(const syntax::ChunkChange& change, const JumpMap& old_jumps, JumpNumbers numbers);
   bool check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop);
   void check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, Checker& checker);
-  std::size_t pass_over(std::size_t chunk, PositionShift& shift);
+  bool passes(std::size_t chunk, const FrontierChange& change) const;
+  void pass_state(std::size_t chunk, std::optional<PassedState>& state);
+  std::size_t pass_over(std::size_t chunk, FrontierChange& change);
 
   const syntax::Document& document_;
   const rules::CheckSetup& setup_;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "analyzer/check/folding.h"
-#include "analyzer/check/position_shift.h"
+#include "analyzer/check/frontier_change.h"
 #include "analyzer/rules/rule.h"
 #include "interpreter/execution/line_parts.h"
 #include "interpreter/execution/plain_run.h"
@@ -84,22 +84,22 @@ static const execution::Lack* lack_of_any(const Groups& live) {
 
 /// Records a line executed by a plain run. Under G91 only the words of an arc matter, under G90 its start as well.
 /// `named` collects the letters of the arguments under G90: at the end of the run their axes are set.
-[[gnu::always_inline]] static inline void note_plain_move(const PlainLine& line, const execution::PlainRun& run,
-                                                          const execution::State& state, PositionUse& use,
-                                                          dialect::LetterSet& named) {
+[[gnu::always_inline]] static inline void note_plain_move(const execution::PlainRun& run, const execution::State& state,
+                                                          PositionUse& use, dialect::LetterSet& named) {
   if (run.is_incremental()) {
     use.far |= is_far(state.position);
     return;
   }
   if (run.was_arc())
     use.read |= static_cast<execution::AxisSet>(execution::kLinearAxes & ~(use.set | execution::axes_of(named)));
-  named |= line.arguments;
+  named = run.effects().letters;
 }
 
 /// Records the folds that a run of plain lines ends.
 static void note_plain_feed(const execution::PlainRun& run, const execution::State& state, std::size_t line,
                             Outcome& outcome) {
-  if (run.has_taken_feed() && state.inverse_time()) outcome.end_folds(folds_ended_by(BlockStep::InverseTimeFeed), line);
+  if (run.effects().has_taken_feed && state.inverse_time())
+    outcome.end_folds(folds_ended_by(BlockStep::InverseTimeFeed), line);
 }
 
 /// Whether a finding is about the circle of an arc, which under G91 does not depend on where the arc starts.
@@ -139,13 +139,14 @@ std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Out
       if (may_skip && changes_nothing_at(done)) continue;
       break;
     }
-    note_plain_move(line, run, state, use, named);
+    note_plain_move(run, state, use, named);
   }
   outcome.centers.open |= run.met_open_center();
   if (done == 0) return 0;
   use.set |= execution::axes_of(named);
-  group.memory.take(run, state);
-  if (house_ && run.has_run()) house_->take(run, state, group.house);
+  last_row_ = run.effects();
+  group.memory.take(last_row_, state);
+  if (house_) house_->take(last_row_, state, group.house);
   note_plain_feed(run, state, line_number, outcome);
   outcome.has_text = true;
   outcome.last_text_line = line_number + done - 1;
@@ -164,7 +165,9 @@ std::size_t Checker::check_plain_lines(const syntax::TreeStore& trees, std::size
 
 void Checker::check_all(const syntax::ChunkTrees& trees, Outcome& outcome) {
   for (std::size_t line = 0; line < trees.size(); ++line) {
-    line += check_plain_lines(trees.store(), line, line, outcome);
+    const std::size_t done = check_plain_lines(trees.store(), line, line, outcome);
+    if (done == trees.size()) outcome.only_row = last_row_;
+    line += done;
     if (line < trees.size()) check_any(trees[line], line, outcome);
   }
 }
@@ -362,10 +365,10 @@ class Checker::LineExecution final : public execution::Sink {
     if (house) note_house_rules(*house, outcome_.positions);
     outcome_.centers.open |= run.met_open_center();
     dialect::LetterSet named = 0;
-    note_plain_move(line_.plain(), run, group.state, outcome_.positions, named);
+    note_plain_move(run, group.state, outcome_.positions, named);
     outcome_.positions.set |= execution::axes_of(named);
-    group.memory.take(run, group.state);
-    if (house) house->take(run, group.state, group.house);
+    group.memory.take(run.effects(), group.state);
+    if (house) house->take(run.effects(), group.state, group.house);
     note_plain_feed(run, group.state, line_number_, outcome_);
     return true;
   }

@@ -69,6 +69,7 @@ class Checker {
   const rules::HouseRules* const house_;  // Null without house rules.
   const bool checks_moves_;
   const bool suspects_centers_;
+  execution::PlainEffects last_row_;          // Of the lines that check_plain() has checked last.
   std::vector<GroupFinding> group_findings_;  // The findings of one line; a member to keep its memory.
 };
 

@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "analyzer/check/frontier.h"
+#include "interpreter/execution/plain_run.h"
 
 namespace isocnc::check {
 
@@ -65,6 +67,7 @@ struct Outcome {
   RegisterSet assigned = 0;  ///< Registers assigned a value; recorded only if some IF compares one.
   PositionUse positions;
   CenterUse centers;
+  std::optional<execution::PlainEffects> only_row;  ///< If all lines of a chunk are one row of plain motions.
   /// The first line with a jump that may lead anywhere below, as its label cannot be read or found (D63).
   std::size_t leads_anywhere_from = kNowhere;
   /// The numbers of lines whose line number has been reported as another word (N3O, 30, B30): jumps to them are not

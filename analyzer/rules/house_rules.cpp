@@ -151,10 +151,11 @@ PlainGuard HouseRules::guard(const HouseMemory& memory, const execution::State& 
   return guard;
 }
 
-void HouseRules::take(const execution::PlainRun& row, const execution::State& after, HouseMemory& memory) const {
+void HouseRules::take(const execution::PlainEffects& row, const execution::State& after, HouseMemory& memory) const {
+  if (!row.has_run()) return;
   memory.on |= concerned_by({.kind = EventKind::Motion}).started;
-  if (row.has_fed()) memory.on |= concerned_by({.kind = EventKind::Cut}).started;
-  if (feed_ == 0 || !row.has_taken_feed() || after.inverse_time()) return;
+  if (row.has_fed) memory.on |= concerned_by({.kind = EventKind::Cut}).started;
+  if (feed_ == 0 || !row.has_taken_feed || after.inverse_time()) return;
   const execution::ProgrammedFeed feed = after.feed_per_minute;
   memory.outside = (memory.outside & ~feed_) | outside_of(feed_, feed.number * feed.mm_per_unit);
 }

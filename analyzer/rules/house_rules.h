@@ -42,6 +42,8 @@ struct PlainGuard {
 
   /// `words` and `feed` are those of the line, `state` is that before it.
   bool stops_at(std::span<const syntax::Word> words, std::int32_t feed, const execution::State& state) const;
+
+  friend bool operator==(const PlainGuard&, const PlainGuard&) = default;
 };
 
 /// The house rules of a configuration, made ready for the check. A line costs one look into a table for each of its
@@ -62,7 +64,7 @@ class HouseRules {
   bool judges_plain_motions(const HouseMemory& memory, const execution::State& state) const;
   PlainGuard guard(const HouseMemory& memory, const execution::State& state) const;
   /// Takes a row of plain motions that the guard has let through; `after` is the state after it.
-  void take(const execution::PlainRun& row, const execution::State& after, HouseMemory& memory) const;
+  void take(const execution::PlainEffects& row, const execution::State& after, HouseMemory& memory) const;
 
   /// Takes the comments of a line, also of one without any block.
   void take_comments(const syntax::LineTree& line, HouseMemory& memory) const;

@@ -95,11 +95,11 @@ class Memory {
     if ((held & kMemoryTable.followed_) != 0) follow(step, before, held);
   }
   /// Takes the steps of a row of plain motions. `after` is the state after it.
-  void take(const execution::PlainRun& row, const execution::State& after) {
-    if (!row.has_fed()) return;
+  void take(const execution::PlainEffects& row, const execution::State& after) {
+    if (!row.has_fed) return;
     const bool inverse_time = after.inverse_time();
     take(inverse_time ? BlockStep::InverseTimeFeedMove : BlockStep::FeedMove, after);
-    if (row.has_taken_feed()) take(inverse_time ? BlockStep::InverseTimeFeed : BlockStep::Feed, after);
+    if (row.has_taken_feed) take(inverse_time ? BlockStep::InverseTimeFeed : BlockStep::Feed, after);
   }
   /// Keeps the facts that hold on the other path as well.
   void join(const Memory& other) { facts_ &= other.facts_; }

@@ -7,6 +7,17 @@
 
 namespace isocnc::execution {
 
+/// What a row of plain lines has done, apart from where it has moved.
+struct PlainEffects {
+  dialect::LetterSet letters = 0;  ///< Letters of the arguments of all motions.
+  bool has_fed = false;            ///< Whether there was a feed move.
+  bool has_taken_feed = false;     ///< Whether a feed move had an F.
+  bool has_arc = false;            ///< Whether there was an arc.
+
+  /// Whether there was a motion.
+  bool has_run() const { return letters != 0; }
+};
+
 /// Executes plain lines in a row (LineTree::plain_arguments), as execute() does with a sink that wants no effects:
 /// motions that are valid. Reports none of their steps. Caches everything that plain lines cannot
 /// change, so that each line is cheap. During the run only `state.position` is up to date; the destructor updates the
@@ -19,15 +30,17 @@ class PlainRun {
         setup_(setup),
         leaves_open_centers_(leaves_open_centers),
         scale_(state.mm_per_unit()),
-        straight_(state.five_axis() ? dialect::kCoordinateLetters : dialect::kLinearLetters),
+        straight_(state.unknown == 0 ? straight_letters() : 0),
         incremental_(state.incremental()),
-        may_run_(state.tool_selected && state.unknown == 0 && (state.in_doubt & kJudged) == 0 && state.lack.empty()),
+        unknown_(state.unknown),
+        may_run_(state.tool_selected && (unknown_ == 0 || !incremental_) && (state.in_doubt & kJudged) == 0 &&
+                 state.lack.empty()),
         feed_holds_(state.feed_given && !state.inverse_time()),
         motion_(state.motion() ? state.motion()->role : kNoMotion) {}
   PlainRun(const PlainRun&) = delete;
   PlainRun& operator=(const PlainRun&) = delete;
   ~PlainRun() {
-    if (has_run_) finish();
+    if (effects_.has_run()) finish();
   }
 
   /// Runs a rapid, a line or a valid arc if the tool and the feed are known. Does nothing and returns false for any
@@ -39,37 +52,38 @@ class PlainRun {
     if (motion == dialect::GRole::Rapid ? has_feed : !has_feed && !feed_holds_) return false;
     if (motion != dialect::GRole::Rapid && motion != dialect::GRole::Line) {
       if (motion == kNoMotion || !is_sound_arc(line.words, line.arguments)) return false;
-    } else if ((line.arguments & ~straight_) != 0) {
+    } else if ((line.arguments & ~straight_) != 0 && !runs_from_unknown(line.arguments)) {
       return false;
     }
     move_axes(line);
     if (has_feed) take_feed(line.words[static_cast<std::size_t>(line.feed)].value);
     motion_ = motion;
-    has_run_ = true;
-    has_fed_ |= motion != dialect::GRole::Rapid;
+    effects_.letters |= line.arguments;
+    effects_.has_fed |= motion != dialect::GRole::Rapid;
     return true;
   }
 
   /// Whether it can run any line.
   bool may_run() const { return may_run_; }
-  /// Whether it has run a line.
-  bool has_run() const { return has_run_; }
+  const PlainEffects& effects() const { return effects_; }
   bool is_incremental() const { return incremental_; }
-  /// Whether there was a feed move.
-  bool has_fed() const { return has_fed_; }
-  /// Whether a feed move had an F.
-  bool has_taken_feed() const { return has_taken_feed_; }
   /// Whether the last line was an arc.
   bool was_arc() const { return motion_ != dialect::GRole::Rapid && motion_ != dialect::GRole::Line; }
   /// Whether there was an arc under G90 whose center could also be incremental.
   bool met_open_center() const { return met_open_center_; }
 
+  /// Copies all that a row of plain lines with these effects passes on: what it neither reads nor changes.
+  static void copy_passed_on(const State& from, const PlainEffects& row, State& to);
+  /// Copies all that such a row does not read: what it passes on, and what it sets whatever that was. A row that has
+  /// run from one state runs in the same way from any other that differs in this alone.
+  static void copy_unread(const State& from, const PlainEffects& row, State& to);
+
  private:
   static constexpr dialect::GRole kNoMotion = dialect::GRole::Mode;
-  /// The groups on which a plain line depends. An arc on a face is none.
+  /// The groups on which all plain lines depend; arcs also depend on the plane, and B and C on the interpolation. An
+  /// arc on a face is no plain line.
   static constexpr std::uint16_t kJudged =
-      State::bit(dialect::ModalGroup::Motion) | State::bit(dialect::ModalGroup::Plane) |
-      State::bit(dialect::ModalGroup::Interpolation) | State::bit(dialect::ModalGroup::Units) |
+      State::bit(dialect::ModalGroup::Motion) | State::bit(dialect::ModalGroup::Units) |
       State::bit(dialect::ModalGroup::Distance) | State::bit(dialect::ModalGroup::FeedMode);
 
   [[gnu::always_inline]] void move_axes(const syntax::PlainLine& line) {
@@ -86,6 +100,11 @@ class PlainRun {
       }
     }
   }
+  dialect::LetterSet straight_letters() const {
+    const bool may_turn = state_.five_axis() && !state_.is_in_doubt(dialect::ModalGroup::Interpolation);
+    return may_turn ? dialect::kCoordinateLetters : dialect::kLinearLetters;
+  }
+  bool runs_from_unknown(dialect::LetterSet arguments);
   // These do not take the line itself, since a reference to it would keep it in memory, and out of the registers.
   void advance_axes(std::span<const syntax::Word> words);
   bool is_sound_arc(std::span<const syntax::Word> words, dialect::LetterSet arguments);
@@ -96,14 +115,13 @@ class PlainRun {
   const Setup& setup_;
   const bool leaves_open_centers_;
   const double scale_;
-  const dialect::LetterSet straight_;  ///< Axes that a straight motion may move.
+  dialect::LetterSet straight_;  ///< Axes that a straight motion may move; while some are unknown, none.
   const bool incremental_;
+  AxisSet unknown_;  ///< Axes whose position is unknown: only lines under G90 run then, and no arcs.
   const bool may_run_;
   bool feed_holds_;        ///< Whether a feed move without F is valid.
   dialect::GRole motion_;  ///< The role of the motion in force, or kNoMotion.
-  bool has_run_ = false;
-  bool has_fed_ = false;
-  bool has_taken_feed_ = false;
+  PlainEffects effects_;
   bool met_open_center_ = false;
 };
 

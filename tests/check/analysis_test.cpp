@@ -220,6 +220,44 @@ TEST(Analysis, AShiftIsNotPassedOverByWhatDependsOnThePosition) {
 }
 
 /// Where the units are in doubt, a move sets its axes to 0, wherever they were.
+/// What plain motions do not read is passed on by them, also where a mode or a number is typed that lasts.
+TEST(Analysis, WhatPlainMotionsDoNotReadPassesOverThem) {
+  Document document(zigzag(20'000));
+  document.replace({19'000, 0}, {19'000, 0}, "G40\nM05\nG4 F1\n");
+  Analysis analysis(document, kSetup);
+  for (const char* const line : {"G41", "S5000", "M03", "F700", "G18", "G92 X0 Y0 Z0", "G38", "T101002 M06", "M05"}) {
+    const auto expect_few = [&] {
+      analysis.update();
+      EXPECT_LE(analysis.lines_checked(), 1'500u) << line;
+      const Analysis fresh(document, kSetup);
+      EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << line;
+      for (const std::size_t place : {100u, 499u, 502u, 9'000u, 18'990u, 19'500u, 20'000u})
+        EXPECT_EQ(analysis.frontier_before(place), fresh.frontier_before(place)) << line << ", line " << place;
+    };
+    document.replace({500, 0}, {500, 0}, std::string(line) + "\n");
+    expect_few();
+    document.replace({500, 0}, {501, 0}, "");
+    expect_few();
+  }
+}
+
+/// An arc reads its plane, and a line without F the way feeds are given.
+TEST(Analysis, WhatPlainMotionsReadIsNotPassedOver) {
+  Document document(zigzag(20'000));
+  document.replace({15'000, 0}, {15'000, 0}, "G1 X0 Y0\nG2 X10 Y0 I5 J0\nG1 X5\n");
+  Analysis analysis(document, kSetup);
+  ASSERT_TRUE(analysis.report().findings.empty());
+  for (const char* const line : {"G18", "G93", "G70", "G91"}) {
+    document.replace({500, 0}, {500, 0}, std::string(line) + "\n");
+    analysis.update();
+    EXPECT_FALSE(analysis.report().findings.empty()) << line;
+    EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup))) << line;
+    document.replace({500, 0}, {501, 0}, "");
+    analysis.update();
+    EXPECT_TRUE(analysis.report().findings.empty()) << line;
+  }
+}
+
 TEST(Analysis, AShiftEndsWhereTheUnitsAreInDoubt) {
   std::string text = incremental_zigzag(2'000);
   text.insert(text.find("G90 X5"), "70\nX1\n" + support::joined(std::vector<std::string>(1'000, "Y1")));
@@ -506,6 +544,117 @@ TEST(AnalysisProperty, ShiftedEqualsFresh) {
       ASSERT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << which;
       for (std::size_t line = 0; line < document.line_count(); line += 101)
         ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+    }
+  }
+}
+
+/// House rules that plain motions start, or that depend on the tool, the feed and the depth.
+rules::CheckSetup house_setup(Random& random) {
+  using Kind = dialect::HouseEvent::Kind;
+  using dialect::HouseWatch;
+  const auto tools = [&] {
+    return random.one_in(3) ? std::vector<dialect::ToolRange>{} : std::vector<dialect::ToolRange>{{101'002, 101'002}};
+  };
+  std::vector<HouseWatch> watches;
+  if (random.one_in(2))
+    watches.push_back({.rule = "coolant",
+                       .reported = {{.kind = Kind::M, .number = 8}},
+                       .started = {{.kind = random.one_in(2) ? Kind::Motion : Kind::Cut}},
+                       .ended = {{.kind = Kind::M, .number = 9}}});
+  if (random.one_in(2))
+    watches.push_back(
+        {.rule = "feed", .kind = HouseWatch::Kind::Feed, .minimum = 400, .maximum = 900, .tools = tools()});
+  if (random.one_in(2))
+    watches.push_back({.rule = "speed", .kind = HouseWatch::Kind::Speed, .maximum = 6'000, .tools = tools()});
+  if (random.one_in(3))
+    watches.push_back({.rule = "depth", .kind = HouseWatch::Kind::Depth, .minimum = 0, .tools = tools()});
+  rules::CheckSetup setup;
+  if (!watches.empty()) setup.house_rules = std::make_shared<rules::HouseRules>(watches);
+  return setup;
+}
+
+/// What a line leaves for the next motions, where these are in another chunk than the line.
+TEST(Analysis, TheLastLineOfAChunkCountsForThoseBelow) {
+  using Kind = dialect::HouseEvent::Kind;
+  using dialect::HouseWatch;
+  const std::vector<dialect::ToolRange> second = {{101'002, 101'002}};
+  rules::CheckSetup setup;
+  setup.house_rules = std::make_shared<rules::HouseRules>(std::vector<HouseWatch>{
+      {.rule = "coolant",
+       .reported = {{.kind = Kind::M, .number = 8}},
+       .started = {{.kind = Kind::Cut}},
+       .ended = {{.kind = Kind::M, .number = 9}}},
+      {.rule = "clamp", .reported = {{.kind = Kind::Cut}}, .started = {{.kind = Kind::M, .number = 10}}},
+      {.rule = "feed", .kind = HouseWatch::Kind::Feed, .minimum = 900, .tools = second},
+      {.rule = "depth", .kind = HouseWatch::Kind::Depth, .minimum = -1, .tools = {{101'003, 101'003}}}});
+  std::string text = "M06 T101001\nS5000 M03\nG90 G1 X0 Y0 Z0 F1000\n";
+  for (int i = 3; i < 127; ++i) text += "X1\n";
+  text += "G90\n";  // The line that is edited.
+  for (int i = 128; i < 2'000; ++i) text += fmt::format("X{} Z{}{}\n", i % 50, i % 7 - 3, i % 60 == 0 ? " F800" : "");
+  text += "M08\nM06 T101001\nM02\n";
+  for (const char* const line : {"M05", "M09", "M10", "M06 T101002", "M06 T101003", "M06 T101004", "M05 M06 T101002",
+                                 "G41", "S7000", "F2000", "G92 Z1", "G04 F1"}) {
+    Document document(text);
+    Analysis analysis(document, setup);
+    ASSERT_EQ(document.first_line_of_chunk(1), 128u);
+    document.replace({127, 0}, {127, 3}, line);
+    analysis.update();
+    const Analysis fresh(document, setup);
+    EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << line;
+    for (std::size_t chunk = 0; chunk < document.chunk_count(); ++chunk) {
+      const std::size_t place = document.first_line_of_chunk(chunk);
+      EXPECT_EQ(analysis.frontier_before(place), fresh.frontier_before(place)) << line << ", line " << place;
+    }
+  }
+}
+
+/// Edits of what lasts, in a program of plain motions with little between them.
+TEST(AnalysisProperty, PassedOnEqualsFresh) {
+  for (const std::uint64_t seed : support::seeds(60)) {
+    Random random(seed);
+    const rules::CheckSetup setup = house_setup(random);
+    const auto lasting = [&] {
+      return std::string(random.any_of({"G41",         "G42",   "G40",
+                                        "S5000",       "S9000", "M03",
+                                        "M04",         "M05",   "M08",
+                                        "M09",         "F500",  "F1000",
+                                        "G18",         "G17",   "G92 X1 Y1 Z0",
+                                        "G38",         "G39",   "T101002 M06",
+                                        "T101001 M06", "G27",   "G29 B90",
+                                        "G48",         "G49",   "G93",
+                                        "G94",         "G91",   "G90",
+                                        "G70",         "G71",   "G",
+                                        "G4",          "G1",    "IF VGPL=1 GOTO N7",
+                                        "N7",          "M0",    "S"}));
+    };
+    const auto motion = [&](int i) {
+      if (random.one_in(700)) return lasting();
+      if (random.one_in(200)) return fmt::format("G2 X{} Y{} R90\nG1 X1", i % 50, i % 40);
+      if (random.one_in(80)) return fmt::format("G0 Z{}\nG1 Z{}", i % 9, -(i % 3));
+      return fmt::format("X{} Y{}{}", i % 50, i % 70, random.one_in(80) ? " F800" : "");
+    };
+    std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\n";
+    for (int i = 0; i < 2'000; ++i) text += motion(i) + "\n";
+    Document document(text + "M02\n");
+    Analysis analysis(document, setup);
+    for (int i = 0; i < 25; ++i) {
+      for (int k = random.between(1, 2); k > 0; --k) {
+        std::size_t line = random.below(document.line_count());
+        // What is remembered up to the next motion is remembered beyond the end of a chunk.
+        if (random.one_in(2)) line = document.first_line_of_chunk(document.chunk_of_line(line)) - random.below(2);
+        line = std::min(line, document.line_count());
+        document.replace({line, 0}, {line + random.below(2), 0}, random.one_in(5) ? "" : lasting() + "\n");
+      }
+      if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
+      analysis.update();
+      const Analysis fresh(document, setup);
+      const std::string which = fmt::format("seed {}, edit {}", seed, i);
+      ASSERT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << which;
+      for (std::size_t chunk = 0; chunk <= document.chunk_count(); ++chunk) {
+        const std::size_t line =
+            chunk < document.chunk_count() ? document.first_line_of_chunk(chunk) : document.line_count();
+        ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+      }
     }
   }
 }

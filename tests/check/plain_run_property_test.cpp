@@ -62,7 +62,7 @@ TEST(PlainRunProperty, LeavesTheStateAndTheMemoryOfExecute) {
         PlainRun run(state, setup);
         const bool is_judged = memory.judges_plain_motions(state);
         while (!is_judged && line + done < trees.size() && run.run(trees.plain(line + done))) ++done;
-        memory.take(run, state);
+        memory.take(run.effects(), state);
       }
       rows += done > 0 ? 1 : 0;
       longest = std::max(longest, done);
@@ -80,6 +80,70 @@ TEST(PlainRunProperty, LeavesTheStateAndTheMemoryOfExecute) {
   }
   EXPECT_GT(rows, support::seeds(1'500).size());
   EXPECT_GT(longest, 10u);
+}
+
+/// The states before the lines of a random program.
+std::vector<State> random_states(Random& random) {
+  const execution::Setup setup;
+  std::vector<State> states = {initial_state(setup)};
+  for (const std::string& line : RandomProgram(random).lines(40)) {
+    State state = states.back();
+    rules::Memory memory;
+    CountingSink unheard(memory);
+    execute(syntax::ParsedLine(line).tree(), state, setup, unheard);
+    states.push_back(state);
+  }
+  return states;
+}
+
+/// Runs plain lines from a state; returns how many it ran.
+std::size_t run_row(const syntax::TreeStore& trees, State& state, PlainEffects& effects) {
+  const execution::Setup setup;
+  PlainRun run(state, setup);
+  std::size_t done = 0;
+  while (done < trees.size() && run.run(trees.plain(done))) ++done;
+  effects = run.effects();
+  return done;
+}
+
+/// What a row passes on makes no difference to it, and is the same after it.
+TEST(PlainRunProperty, PassesOnWhatItDoesNotRead) {
+  std::size_t different = 0;
+  std::size_t with_arcs = 0;
+  for (const std::uint64_t seed : support::seeds(3'000)) {
+    Random random(seed);
+    std::string text;
+    for (int i = random.between(1, 6); i > 0; --i)
+      text += std::string(random.any_of({"G0 X5 Y5", "G1 X7 F300", "Z3", "G2 X20 Y0 R500", "X1 Y2", "F100 Y3",
+                                         "G3 X1 Y1 R90", "G2 X1 Z1 R400", "G1 Y8"})) +
+              "\n";
+    const std::string padded = text + std::string(40, '\n');
+    syntax::TreeStore trees;
+    trees.append_lines(padded.data(), padded.data() + text.size(), padded.data() + padded.size());
+    const std::vector<State> states = random_states(random);
+    State before = states[random.below(states.size())];
+    before.tool_selected = true;
+    before.lack = {};
+    if (random.one_in(2)) before.in_doubt = 0;
+    const State& other = states[random.below(states.size())];
+
+    PlainEffects row;
+    State after = before;
+    const std::size_t done = run_row(trees, after, row);
+    if (done < trees.size()) continue;
+    State from = before;
+    PlainRun::copy_unread(other, row, from);
+    different += from == before ? 0 : 1;
+    with_arcs += row.has_arc ? 1 : 0;
+
+    State reached = from;
+    PlainEffects same_row;
+    ASSERT_EQ(run_row(trees, reached, same_row), done) << "seed " << seed;
+    PlainRun::copy_passed_on(from, row, after);
+    EXPECT_EQ(reached, after) << "seed " << seed;
+  }
+  EXPECT_GT(different, support::often(500));
+  EXPECT_GT(with_arcs, support::often(100));
 }
 
 /// The same for lines of one assignment, or one IF.

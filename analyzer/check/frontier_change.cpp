@@ -1,4 +1,4 @@
-#include "analyzer/check/position_shift.h"
+#include "analyzer/check/frontier_change.h"
 
 #include <cmath>
 
@@ -75,7 +75,8 @@ static const Group* any_group(const Frontier& frontier) {
   return frontier.waiting().empty() ? nullptr : &frontier.waiting().begin()->second[0];
 }
 
-std::optional<PositionShift> shift_between(const Frontier& from, const Frontier& to) {
+/// The shift that turns `from` into `to`, if they differ in positions alone; nothing otherwise.
+static std::optional<PositionShift> shift_between(const Frontier& from, const Frontier& to) {
   const Group* const before = any_group(from);
   const Group* const after = any_group(to);
   if (!before || !after) return from == to ? std::optional(PositionShift{}) : std::nullopt;
@@ -84,6 +85,59 @@ std::optional<PositionShift> shift_between(const Frontier& from, const Frontier&
   Frontier shifted = from;
   shift->apply(shifted);
   return shifted == to ? shift : std::nullopt;
+}
+
+/// A state with the position of another.
+static execution::State placed_at(const geometry::Pose& position, execution::State state) {
+  state.position = position;
+  return state;
+}
+
+bool PassedState::passes(const execution::PlainEffects& row, const Group& before,
+                         const rules::HouseRules* rules) const {
+  execution::State alike = placed_at(before.state.position, state);
+  execution::PlainRun::copy_unread(before.state, row, alike);
+  if (alike != before.state || memory.judges_plain_motions(state)) return false;
+  return !rules || (!rules->judges_plain_motions(house, state) &&
+                    rules->guard(house, state) == rules->guard(before.house, before.state));
+}
+
+void PassedState::pass(const execution::PlainEffects& row, const execution::State& after,
+                       const rules::HouseRules* rules) {
+  execution::State passed = after;
+  execution::PlainRun::copy_passed_on(state, row, passed);
+  state = passed;
+  memory.take(row, state);
+  if (rules) rules->take(row, state, house);
+}
+
+bool PassedState::equals(const Group& group) const {
+  return memory == group.memory && house == group.house && placed_at(group.state.position, state) == group.state;
+}
+
+void PassedState::apply(Group& group) const {
+  group.state = placed_at(group.state.position, state);
+  group.memory = memory;
+  group.house = house;
+}
+
+void FrontierChange::apply(Frontier& frontier) const {
+  shift.apply(frontier);
+  if (state) state->apply(frontier.live[0]);
+}
+
+std::optional<FrontierChange> change_between(const Frontier& from, const Frontier& to) {
+  if (const auto shift = shift_between(from, to)) return FrontierChange{.shift = *shift};
+  if (from.live.size() != 1 || to.live.size() != 1) return std::nullopt;
+  Frontier alike = to;
+  Group& group = alike.live[0];
+  static constexpr execution::PlainEffects kAnyRow{.letters = dialect::kLinearLetters};
+  execution::PlainRun::copy_unread(from.live[0].state, kAnyRow, group.state);
+  group.memory = from.live[0].memory;
+  group.house = from.live[0].house;
+  const auto shift = shift_between(from, alike);
+  if (!shift) return std::nullopt;
+  return FrontierChange{.shift = *shift, .state = PassedState::of(to.live[0])};
 }
 
 void note_line(const syntax::LineTree& line, const execution::State& before, const execution::State& after,

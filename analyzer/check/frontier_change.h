@@ -5,6 +5,7 @@
 
 #include "analyzer/check/frontier.h"
 #include "analyzer/check/outcome.h"
+#include "interpreter/execution/plain_run.h"
 #include "interpreter/geometry/increment.h"
 
 namespace isocnc::check {
@@ -23,8 +24,33 @@ struct PositionShift {
   void apply(Frontier& frontier) const;
 };
 
-/// The shift that turns `from` into `to`, if they differ in positions alone; nothing otherwise.
-std::optional<PositionShift> shift_between(const Frontier& from, const Frontier& to);
+/// What plain lines pass on of a group of paths, but for its position.
+struct PassedState {
+  execution::State state;
+  rules::Memory memory;
+  rules::HouseMemory house;
+
+  static PassedState of(const Group& group) { return {group.state, group.memory, group.house}; }
+  /// Whether a row of plain lines that has run from `before` without a finding does so from here as well.
+  bool passes(const execution::PlainEffects& row, const Group& before, const rules::HouseRules* rules) const;
+  /// Goes on past such a row, which has led from another state to `after`.
+  void pass(const execution::PlainEffects& row, const execution::State& after, const rules::HouseRules* rules);
+  bool equals(const Group& group) const;
+  /// Gives a group this state, at its own position.
+  void apply(Group& group) const;
+};
+
+/// A difference between two frontiers that lines may pass on without giving other findings.
+struct FrontierChange {
+  PositionShift shift;
+  std::optional<PassedState> state;  ///< That of the only live group, where it has changed.
+
+  bool empty() const { return shift.empty() && !state; }
+  void apply(Frontier& frontier) const;
+};
+
+/// The change that turns `from` into `to`; nothing if they differ in more.
+std::optional<FrontierChange> change_between(const Frontier& from, const Frontier& to);
 
 /// Whether a coordinate is beyond half the range in which increments add up exactly; a shift may use the other half.
 inline bool is_far(const geometry::Pose& pose) {
