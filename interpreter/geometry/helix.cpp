@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpreter/geometry/frame.h"
+
 namespace isocnc::geometry {
 
 Helix helix(const Vec3& from, const Vec3& to, const Vec3& center, const Vec3& normal, double sweep_deg) {
@@ -12,8 +14,9 @@ Helix helix(const Vec3& from, const Vec3& to, const Vec3& center, const Vec3& no
   result.out = from_center - normal * normal.dot(from_center);
   result.side = normal.cross(result.out) * (sweep_deg < 0 ? -1 : 1);
   result.center = from - result.out;
-  result.cosine = std::cos(result.sweep);
-  result.sine = std::sin(result.sweep);
+  const SineCosine end = sine_and_cosine(std::abs(sweep_deg));
+  result.cosine = end.cosine;
+  result.sine = end.sine;
   result.rise = to - (result.center + result.cosine * result.out + result.sine * result.side);
   return result;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interpreter/geometry/frame.h"
 #include "interpreter/kinematics/numbers.h"
 
 namespace isocnc::kinematics {
@@ -19,12 +20,20 @@ static Jet polynomial_at(const Path& path, double s) {
   return {c[0] + s * (c[1] + s * (c[2] + s * c[3])), c[1] + s * (2 * c[2] + 3 * s * c[3]), 2 * c[2] + 6 * s * c[3]};
 }
 
+/// Of a circle, on which B and C rest.
 static Jet circle_at(const Path& path, double s) {
-  const double cosine = std::cos(path.omega * s);
-  const double sine = std::sin(path.omega * s);
-  const Coordinates out = cosine * path.c[1] + sine * path.c[2];
-  const Coordinates along = cosine * path.c[2] - sine * path.c[1];
-  return {path.c[0] + out + s * path.c[3], path.omega * along + path.c[3], -path.omega * path.omega * out};
+  // Most are asked for at their start.
+  const auto [sine, cosine] = s == 0 ? geometry::SineCosine{} : geometry::sine_and_cosine(path.omega * s / kRadians);
+  const auto c1 = path.c[1].head<3>();
+  const auto c2 = path.c[2].head<3>();
+  const auto c3 = path.c[3].head<3>();
+  const geometry::Vec3 out = cosine * c1 + sine * c2;
+  const geometry::Vec3 along = cosine * c2 - sine * c1;
+  Jet jet{.value = path.c[0]};
+  jet.value.head<3>() += out + s * c3;
+  jet.first.head<3>() = path.omega * along + c3;
+  jet.second.head<3>() = -path.omega * path.omega * out;
+  return jet;
 }
 
 Jet Path::at(double s) const { return kind == PathKind::Polynomial ? polynomial_at(*this, s) : circle_at(*this, s); }
