@@ -284,6 +284,7 @@ void Analysis::check_changed_jumps_again(const syntax::ChunkChange& change, cons
       continue;
     }
     const std::uint32_t shift = chunk < change.first ? 0 : numbers.shift;
+    row.is_stale |= row.checked->outcome.may_assign;
     // Registers whose value an IF below reads now and did not read before the edit, or the reverse.
     const auto differently_read = [&] { return jumps_.read_before(jump) ^ old_jumps.read_before(jump - shift); };
     RegisterSet differing = differently_read();

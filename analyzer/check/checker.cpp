@@ -333,7 +333,10 @@ class Checker::LineExecution final : public execution::Sink {
   void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
   void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
   void move(const execution::ProgrammedMove& move, const execution::State&) override { move_ = move; }
-  void assign(int reg, double value) override { checker_.assign(checker_.frontier.live[group_], reg, value, outcome_); }
+  void assign(int reg, double value) override {
+    outcome_.may_assign |= std::isnan(value);
+    checker_.assign(checker_.frontier.live[group_], reg, value, outcome_);
+  }
 
  private:
   bool has_error_in_text() const {

@@ -143,7 +143,7 @@ std::optional<FrontierChange> change_between(const Frontier& from, const Frontie
 void note_line(const syntax::LineTree& line, const execution::State& before, const execution::State& after,
                bool is_judged, PositionUse& use) {
   bool moves = false;
-  bool changes_frame = false;
+  bool changes_frame = before.face_mounted != after.face_mounted || before.face != after.face;
   for (const syntax::Instruction& instruction : line.instructions) {
     const bool is_g = instruction.kind == syntax::InstructionKind::G;
     const dialect::GCode* const code = is_g ? instruction.g() : nullptr;

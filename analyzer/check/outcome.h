@@ -65,6 +65,7 @@ struct Outcome {
   std::size_t last_text_line = 0;         ///< The last line that holds any text (D47); valid if `has_text`.
   bool has_text = false;
   RegisterSet assigned = 0;  ///< Registers assigned a value; recorded only if some IF compares one.
+  bool may_assign = false;   ///< Whether a line that has lost a letter may assign a register; no FlowEvent tells it.
   PositionUse positions;
   CenterUse centers;
   std::optional<execution::PlainEffects> only_row;  ///< If all lines of a chunk are one row of plain motions.

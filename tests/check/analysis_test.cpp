@@ -219,7 +219,6 @@ TEST(Analysis, AShiftIsNotPassedOverByWhatDependsOnThePosition) {
   EXPECT_LE(analysis.lines_checked(), 1'000u);
 }
 
-/// Where the units are in doubt, a move sets its axes to 0, wherever they were.
 /// What plain motions do not read is passed on by them, also where a mode or a number is typed that lasts.
 TEST(Analysis, WhatPlainMotionsDoNotReadPassesOverThem) {
   Document document(zigzag(20'000));
@@ -258,6 +257,7 @@ TEST(Analysis, WhatPlainMotionsReadIsNotPassedOver) {
   }
 }
 
+/// Where the units are in doubt, a move sets its axes to 0, wherever they were.
 TEST(Analysis, AShiftEndsWhereTheUnitsAreInDoubt) {
   std::string text = incremental_zigzag(2'000);
   text.insert(text.find("G90 X5"), "70\nX1\n" + support::joined(std::vector<std::string>(1'000, "Y1")));
@@ -548,6 +548,34 @@ TEST(AnalysisProperty, ShiftedEqualsFresh) {
   }
 }
 
+/// A G27 without its G leaves the face all the same, and so turns the position of all axes.
+TEST(Analysis, AShiftEndsWhereAFaceIsLeftByMistake) {
+  std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F800\nG29 X1 B45 C90\nG91\nX1\n";
+  for (int i = 0; i < 200; ++i) text += "Z1\n";
+  text += "27\n";
+  for (int i = 0; i < 200; ++i) text += "Z1\n";
+  Document document(text + "M02\n");
+  Analysis analysis(document, kSetup);
+  document.replace({4, 1}, {4, 2}, "2");
+  analysis.update();
+  const Analysis fresh(document, kSetup);
+  for (const std::size_t line : {100u, 256u, 384u})
+    EXPECT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << line;
+}
+
+/// A `=` without its register may assign any of them: no W121 where an IF is typed that compares one.
+TEST(Analysis, AnAssignmentWithoutItsRegisterIsSeenByAnIfTypedLater) {
+  std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F800\n=G1 Z0\n";
+  for (int i = 0; i < 200; ++i) text += "X1\n";
+  text += "X2\n";
+  for (int i = 0; i < 150; ++i) text += "X1\n";
+  Document document(text + "N8 X5\nM02\n");
+  Analysis analysis(document, kSetup);
+  document.replace({203, 0}, {203, 2}, "IF V1>0.5 GOTO N8");
+  analysis.update();
+  EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+}
+
 /// House rules that plain motions start, or that depend on the tool, the feed and the depth.
 rules::CheckSetup house_setup(Random& random) {
   using Kind = dialect::HouseEvent::Kind;
@@ -608,27 +636,94 @@ TEST(Analysis, TheLastLineOfAChunkCountsForThoseBelow) {
   }
 }
 
+/// A word that changes what the lines below do, or half of one.
+std::string lasting_word(Random& random) {
+  static constexpr std::string_view kWords[] = {"G41",         "G42",          "G40",
+                                                "S5000",       "S9000",        "M03",
+                                                "M04",         "M05",          "M08",
+                                                "M09",         "M10",          "F500",
+                                                "F1000",       "G17",          "G18",
+                                                "G19",         "G38",          "G39",
+                                                "G27",         "G48",          "G49",
+                                                "G93",         "G94",          "G91",
+                                                "G90",         "G70",          "G71",
+                                                "G",           "G4",           "G1",
+                                                "S",           "N7",           "27",
+                                                "M0",          "G92 X1 Y1 Z0", "T101002 M06",
+                                                "T101001 M06", "G29 B90",      "IF VGPL=1 GOTO N7"};
+  return std::string(kWords[random.below(std::size(kWords))]);
+}
+
+/// Compares an analysis with a fresh one.
+void expect_as_fresh(const Analysis& analysis, const Document& document, const rules::CheckSetup& setup,
+                     const std::string& which) {
+  const Analysis fresh(document, setup);
+  ASSERT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << which;
+  for (std::size_t chunk = 0; chunk <= document.chunk_count(); ++chunk) {
+    const std::size_t line =
+        chunk < document.chunk_count() ? document.first_line_of_chunk(chunk) : document.line_count();
+    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+  }
+}
+
+/// A line of a row of plain motions of some kind.
+std::string line_of_row(int kind, int i, Random& random) {
+  if (random.one_in(100)) return fmt::format("X{} F{}", i % 5, random.one_in(2) ? 700 : 500);
+  switch (kind) {
+    case 0:
+      return fmt::format("X{} Y{}", i % 50, i % 30);
+    case 1:
+      return i % 3 == 0 ? fmt::format("G2 X{} Y{} R90", i % 20, i % 3) : fmt::format("G1 X{}", i % 7);
+    case 2:
+      return i % 3 == 0 ? fmt::format("G3 X{} Z{} R90", i % 20, i % 3) : fmt::format("G1 Z{}", i % 7);
+    case 3:
+      return i % 3 == 0 ? fmt::format("G2 Y{} Z{} R90", i % 20, i % 3) : fmt::format("G1 Y{}", i % 7);
+    case 4:
+      return i % 3 == 0 ? fmt::format("X{} B{} C{}", i % 50, i % 30, i % 20) : fmt::format("Y{}", i % 7);
+    case 5:
+      return i % 2 == 0 ? fmt::format("G0 Z{}", i % 9) : "G1 Z-1";
+    default:
+      return i % 2 == 0 ? "(note)" : fmt::format("N{}", i);
+  }
+}
+
+/// Edits of the line above some rows of plain motions: what it changes passes through the chunks of these.
+TEST(AnalysisProperty, PassedThroughRowsEqualsFresh) {
+  std::uint64_t checked = 0;
+  for (const std::uint64_t seed : support::seeds(120)) {
+    Random random(seed);
+    const rules::CheckSetup setup = house_setup(random);
+    std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0\nF1000\nS5000 M03\n";
+    const int kind = random.between(0, 5);
+    text += kind == 2 ? "G18\n" : kind == 3 ? "G19\n" : kind == 4 ? "G49\n" : "G17\n";
+    text += random.one_in(4) ? "G91\n" : "G90\n";
+    for (int i = 6; i < 128; ++i) text += "(note)\n";
+    const int rows = random.between(2, 4);
+    for (int i = 0; i < 128 * rows; ++i)
+      text += line_of_row(random.one_in(400) ? random.between(0, 6) : kind, i, random) + "\n";
+    Document document(text + "N7 X5\nT101002 M06\nG4 F1\nM08\nG27\nM02\n");
+    Analysis analysis(document, setup);
+    for (int i = 0; i < 20; ++i) {
+      const std::size_t line = 127 - random.below(2);
+      document.replace({line, 0}, {line, document.text_of_line(line).size()},
+                       random.one_in(2) ? "(note)" : lasting_word(random));
+      if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
+      analysis.update();
+      checked += analysis.lines_checked();
+      expect_as_fresh(analysis, document, setup, fmt::format("seed {}, edit {}", seed, i));
+      if (testing::Test::HasFatalFailure()) return;
+    }
+  }
+  EXPECT_LT(checked, support::often(120) * 20 * 400);
+}
+
 /// Edits of what lasts, in a program of plain motions with little between them.
 TEST(AnalysisProperty, PassedOnEqualsFresh) {
   for (const std::uint64_t seed : support::seeds(60)) {
     Random random(seed);
     const rules::CheckSetup setup = house_setup(random);
-    const auto lasting = [&] {
-      return std::string(random.any_of({"G41",         "G42",   "G40",
-                                        "S5000",       "S9000", "M03",
-                                        "M04",         "M05",   "M08",
-                                        "M09",         "F500",  "F1000",
-                                        "G18",         "G17",   "G92 X1 Y1 Z0",
-                                        "G38",         "G39",   "T101002 M06",
-                                        "T101001 M06", "G27",   "G29 B90",
-                                        "G48",         "G49",   "G93",
-                                        "G94",         "G91",   "G90",
-                                        "G70",         "G71",   "G",
-                                        "G4",          "G1",    "IF VGPL=1 GOTO N7",
-                                        "N7",          "M0",    "S"}));
-    };
     const auto motion = [&](int i) {
-      if (random.one_in(700)) return lasting();
+      if (random.one_in(700)) return lasting_word(random);
       if (random.one_in(200)) return fmt::format("G2 X{} Y{} R90\nG1 X1", i % 50, i % 40);
       if (random.one_in(80)) return fmt::format("G0 Z{}\nG1 Z{}", i % 9, -(i % 3));
       return fmt::format("X{} Y{}{}", i % 50, i % 70, random.one_in(80) ? " F800" : "");
@@ -643,18 +738,12 @@ TEST(AnalysisProperty, PassedOnEqualsFresh) {
         // What is remembered up to the next motion is remembered beyond the end of a chunk.
         if (random.one_in(2)) line = document.first_line_of_chunk(document.chunk_of_line(line)) - random.below(2);
         line = std::min(line, document.line_count());
-        document.replace({line, 0}, {line + random.below(2), 0}, random.one_in(5) ? "" : lasting() + "\n");
+        document.replace({line, 0}, {line + random.below(2), 0}, random.one_in(5) ? "" : lasting_word(random) + "\n");
       }
       if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
       analysis.update();
-      const Analysis fresh(document, setup);
-      const std::string which = fmt::format("seed {}, edit {}", seed, i);
-      ASSERT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << which;
-      for (std::size_t chunk = 0; chunk <= document.chunk_count(); ++chunk) {
-        const std::size_t line =
-            chunk < document.chunk_count() ? document.first_line_of_chunk(chunk) : document.line_count();
-        ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
-      }
+      expect_as_fresh(analysis, document, setup, fmt::format("seed {}, edit {}", seed, i));
+      if (testing::Test::HasFatalFailure()) return;
     }
   }
 }
