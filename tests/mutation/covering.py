@@ -3,6 +3,7 @@
 import bisect
 import collections
 import dataclasses
+import hashlib
 import itertools
 import json
 import math
@@ -95,23 +96,36 @@ def processor_ticks(group):
 class Tests:
     """The tests that pass without any mutant, how long each takes, and what it reaches."""
 
-    def __init__(self, build, mutant_count, jobs, programs=()):
-        """`programs`: the names of those that count; without them all."""
-        self.seconds = {}
+    def __init__(self, build, mutant_count, jobs, programs=(), known=None):
+        """`programs`: the names of those that count; without them all. `known`: a file with what each program was found to reach, which is right for as long
+        as the program is the same to the byte."""
+        self.seconds = {}  # Without the start of the program.
         self.reaching = collections.defaultdict(list)  # By number of mutant.
+        found = json.loads(known.read_text()) if known and known.is_file() else {}
         with ThreadPoolExecutor(jobs) as pool:
-            tests = self.all_of(build, programs)
-            for test, passes, seconds, reached in pool.map(lambda test: self.look_at(test, mutant_count), tests):
-                if not passes:
-                    print(f"mutate: left out, as it fails without a mutant: {test.name}", file=sys.stderr)
-                    continue
-                self.seconds[test] = seconds
-                for mutant in reached:
-                    self.reaching[mutant].append(test)
+            for program, folder in self.programs_of(build, programs):
+                digest = hashlib.sha256(Path(program).read_bytes()).hexdigest()
+                if found.get(program, {}).get("digest") != digest:
+                    looked = pool.map(lambda test: self.look_at(test, mutant_count), self.cases_of(program, folder))
+                    found[program] = {"digest": digest, "cases": list(looked)}
+                    if known:
+                        known.write_text(json.dumps(found))
+                self.add(program, folder, found[program]["cases"])
         print(f"mutate: {len(self.seconds)} tests, {sum(self.seconds.values()):.0f} s", flush=True)
 
+    def add(self, program, folder, cases):
+        start = min((seconds for _, passes, seconds, _ in cases if passes), default=0)
+        for case, passes, seconds, reached in cases:
+            test = Test(program, folder, case)
+            if not passes:
+                print(f"mutate: left out, as it fails without a mutant: {test.name}", file=sys.stderr)
+                continue
+            self.seconds[test] = seconds - start
+            for mutant in reached:
+                self.reaching[mutant].append(test)
+
     @staticmethod
-    def all_of(build, programs):
+    def programs_of(build, programs):
         listed = subprocess.run(["ctest", "--show-only=json-v1"], cwd=build, capture_output=True, text=True, check=True).stdout
         found = {}
         for entry in json.loads(listed)["tests"]:
@@ -121,7 +135,7 @@ class Tests:
         for program, folder in found.items():
             name = Path(program).name
             if name.endswith("_tests") and name != LEFT_OUT and (not programs or name in programs):
-                yield from Tests.cases_of(program, folder)
+                yield program, folder
 
     @staticmethod
     def cases_of(program, folder):
@@ -140,12 +154,12 @@ class Tests:
             file.truncate(mutant_count)
             passes, seconds = run(test.program, test.folder, 900, ISOCNC_REACHED=file.name, GTEST_FILTER=test.case)
             reached = [number for number, byte in enumerate(Path(file.name).read_bytes()) if byte]
-        return test, passes, seconds, reached
+        return test.case, passes, seconds, reached
 
 
 def runs_of(tests, seconds_of, module, seconds):
-    """The tests as lists of cases of one program, and the time that these take, as far as the time goes: first what is quick in each program, which notices
-    most mutants, then the rest; within both, the tests of the module first."""
+    """The tests as lists of cases of one program, and the time that these take: first what is quick in each program, which notices most mutants, then the
+    rest; within both, the tests of the module first. `seconds` are for the tests of the module, and as much for the others."""
     by_program = collections.defaultdict(list)
     for test in sorted(tests, key=lambda test: seconds_of[test]):
         by_program[test.program].append(test)
@@ -156,17 +170,19 @@ def runs_of(tests, seconds_of, module, seconds):
         quick.append(those[:count])
         slow.append(those[count:])
 
-    def rank(those):
-        is_own = Path(those[0].program).name.startswith(f"{module}_")
-        return not is_own, sum(seconds_of[test] for test in those)
+    def is_own(test):
+        return Path(test.program).name.startswith(f"{module}_")
 
-    left = seconds
+    def rank(those):
+        return not is_own(those[0]), sum(seconds_of[test] for test in those)
+
+    left = {True: seconds, False: seconds}
     for those in sorted(filter(None, quick), key=rank) + sorted(filter(None, slow), key=rank):
         chosen = []
         for test in those:
-            if seconds_of[test] > left or sum(len(each.case) + 1 for each in chosen) > FILTER_BYTES:
+            if seconds_of[test] > left[is_own(test)] or sum(len(each.case) + 1 for each in chosen) > FILTER_BYTES:
                 break
-            left -= seconds_of[test]
+            left[is_own(test)] -= seconds_of[test]
             chosen.append(test)
         if chosen:
             yield chosen, sum(seconds_of[test] for test in chosen)
