@@ -203,6 +203,62 @@ TEST(Analysis, AShiftPassesOverWrongIncrementalArcs) {
   EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
 }
 
+TEST(Analysis, AShiftOfEachAxisPassesOverIncrementalMoves) {
+  std::string text = "M06 T101001\nG49\nG91\nG1 F1000 X1 Y1 Z1 B1 C1\n";
+  for (int i = 0; i < 1'000; ++i) text += fmt::format("X0.{} Y0.1 Z0.2 B0.3 C0.{}\n", i % 10, i % 7);
+  for (const char* const axis : {"X", "Y", "Z", "B", "C"}) {
+    for (const bool is_far : {false, true}) {
+      const std::size_t line = 4;
+      Document document(text + "M02\n");
+      document.replace({line, 0}, {line, 0}, axis + std::string(is_far ? "600000\n" : "7\n"));
+      Analysis analysis(document, kSetup);
+      document.replace({line, 0}, {line, 0}, axis + std::string("0.25\n"));
+      analysis.update();
+      // Far away, increments need not add up exactly.
+      EXPECT_EQ(analysis.lines_checked() > 1'000, is_far) << axis;
+      const Analysis fresh(document, kSetup);
+      for (std::size_t place = 0; place < document.line_count(); place += 97)
+        ASSERT_EQ(analysis.frontier_before(place), fresh.frontier_before(place)) << axis << place;
+    }
+  }
+}
+
+/// A block whose line break is lost takes nothing from what the lines around it have read.
+TEST(Analysis, AShiftIsNotPassedOverByAnArcAboveALostLineBreak) {
+  std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\nG91\n";
+  for (int i = 0; i < 300; ++i) text += "X0.1\nX-0.1\n";
+  text += "G90 G2 X10 Y0 I5 J0\nG1\nX5 Y5\n";
+  for (int i = 0; i < 300; ++i) text += "X1\n";
+  Document document(text + "M02\n");
+  Analysis analysis(document, kSetup);
+  document.replace({3, 0}, {3, 0}, "X2\n");
+  analysis.update();
+  const std::vector<std::string> report = support::texts_of(analysis.report());
+  EXPECT_EQ(report, support::texts_of(check_text(document.text(), kSetup)));
+  EXPECT_GT(report.size(), 1u);
+}
+
+/// Lines on two paths are judged for their depth, too.
+TEST(Analysis, AShiftIsNotPassedOverByADepthOnTwoPaths) {
+  rules::CheckSetup setup;
+  setup.house_rules = std::make_shared<rules::HouseRules>(
+      std::vector<dialect::HouseWatch>{{.rule = "depth", .kind = dialect::HouseWatch::Kind::Depth, .minimum = -9}});
+  std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\nG91\n";
+  for (int i = 0; i < 300; ++i) text += "Z0.1\nZ-0.1\n";
+  text += "IF VGPL=1 GOTO N5\nG38\nN5 X1\n";
+  for (int i = 0; i < 300; ++i) text += "Z0.1\nZ-0.1\n";
+  text += "Z-8.5\n";
+  for (int i = 0; i < 300; ++i) text += "X1\n";
+  Document document(text + "M02\n");
+  Analysis analysis(document, setup);
+  const std::size_t before = analysis.report().findings.size();
+  document.replace({3, 0}, {3, 0}, "Z-1\n");
+  analysis.update();
+  const std::vector<std::string> report = support::texts_of(analysis.report());
+  EXPECT_EQ(report, support::texts_of(check_text(document.text(), setup)));
+  EXPECT_GT(report.size(), before);
+}
+
 TEST(Analysis, AShiftIsNotPassedOverByWhatDependsOnThePosition) {
   Document document(incremental_zigzag(4'000));
   Analysis analysis(document, kSetup);

@@ -177,7 +177,7 @@ TEST(HouseRules, AreJudgedOnEachPath) {
 /// A finding needs what the program says; what cannot be read may have been the M that is missing.
 TEST(HouseRules, SayNothingBecauseOfAnotherMistake) {
   const Shop shop(kCoolant);
-  for (const std::string_view line : {"M0l8", "M", "08", "G77 X1", "MO8"})
+  for (const std::string_view line : {"M0l8", "M", "08", "G77 X1", "MO8", "(coolant M08", "#500=8 M08"})
     EXPECT_THAT(shop.findings(fmt::format("M06 T101001\n{}\nG01 X10 F1000\nM02\n", line)), testing::IsEmpty()) << line;
   // An arc that does not fit hides nothing: its words can be read.
   EXPECT_THAT(shop.findings("M06 T101001\nG00 X0 Y0\nG02 X10 Y0 R1 F1000\nG01 X20\nM02\n"),
