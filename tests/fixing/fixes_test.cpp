@@ -213,6 +213,39 @@ TEST(ArcFixes, GoByTheToleranceOfTheMachine) {
   EXPECT_TRUE(mended(0.0001, "G02 X10 Y9.9997 I10 J0"));
 }
 
+/// A number with a foreign minus is no text, whatever follows it (D67); the en dash of Windows-1252 is no valid UTF-8.
+TEST(TextFixes, MakeNoCommentOfANumber) {
+  for (const std::string dash : {"\x96", "\xE2\x80\x93"}) {
+    const std::string text = "M06 T101001\nN " + dash + "10mm G00 X5\nM02\n";
+    EXPECT_EQ(codes_of(text), (std::multiset<std::string>{"ISO003", "ISO004"}));
+    EXPECT_EQ(fixed(text, true), text);
+  }
+}
+
+/// A T is joined with its M06 across a few lines; farther down it may belong to something else.
+TEST(ToolFixes, LookTwentyLinesDown) {
+  const auto program = [](int comments, std::string_view first, std::string_view last) {
+    std::string text(first);
+    for (int i = 0; i < comments; ++i) text += "(ROUGHING)\n";
+    return text + std::string(last) + "G00 X10\nM02\n";
+  };
+  EXPECT_EQ(fixed(program(19, "M06\n", "T101001\n"), true), program(19, "M06 T101001\n", ""));
+  EXPECT_EQ(fixed(program(20, "M06\n", "T101001\n"), true), program(20, "M06\n", "T101001\n"));
+  EXPECT_EQ(fixed(program(19, "T101001\n", "M06\n"), true), program(19, "", "M06 T101001\n"));
+  EXPECT_EQ(fixed(program(20, "T101001\n", "M06\n"), true), program(20, "T101001\n", "M06\n"));
+}
+
+/// The number of a program may follow a head of comments, but no lines of another program.
+TEST(ForeignFixes, FindTheNumberOfAProgramBelowItsHead) {
+  const auto program = [](int comments, std::string_view number) {
+    std::string text;
+    for (int i = 0; i < comments; ++i) text += "(PART)\n";
+    return text + std::string(number) + "M06 T101001\nM02\n";
+  };
+  EXPECT_EQ(fixed(program(100, "O1234\n"), true), program(100, ""));
+  EXPECT_EQ(fixed(program(101, "O1234\n"), true), program(101, "O1234\n"));
+}
+
 /// CR, LF or CRLF: what is inserted ends like what is there.
 TEST_P(FixCase, KeepsLineEnds) {
   const Case& tested = GetParam();
