@@ -42,11 +42,6 @@ class ArcCollector final : public execution::Sink {
   double tolerance_;
 };
 
-int decimals_in(std::string_view number) {
-  const std::size_t point = number.find('.');
-  return point == std::string_view::npos ? 0 : static_cast<int>(std::min<std::size_t>(number.size() - point - 1, 9));
-}
-
 }  // namespace
 
 std::optional<ArcOfProgram> arc_on(const LineTree& line, const execution::State& before,
@@ -76,7 +71,7 @@ bool may_be_arc(const LineTree& line, const execution::State& before, const exec
 int decimals_of_center(const LineTree& line, const ArcOfProgram& arc) {
   int decimals = 3;
   for (const Word* const word : {arc.center_u, arc.center_v})
-    if (word) decimals = std::max(decimals, decimals_in(line.text_of(word->span())));
+    if (word) decimals = std::max(decimals, decimals_of(line.text_of(word->span())));
   return decimals;
 }
 

@@ -34,9 +34,6 @@ struct ArcOfProgram {
   }
 };
 
-/// The maximum number of decimals of a written center.
-inline constexpr int kMaxDecimals = 9;
-
 /// The line's only arc whose circle is given by a center, executed from this state. Nothing if there is none or
 /// several, if its start is unknown, if one of its words has a finding, or if rewriting would lose a comment between
 /// them.

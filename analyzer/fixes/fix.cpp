@@ -76,7 +76,7 @@ bool helps(const FixRequest& request, const std::vector<Edit>& edits) {
   if (!text) return true;
   std::array<std::int16_t, dialect::kDiagnosticCount> counts{};
   for (const syntax::Finding& finding : request.line.findings) ++counts[static_cast<std::size_t>(finding.id)];
-  if (counts[static_cast<std::size_t>(request.finding.id)] > 0) --counts[static_cast<std::size_t>(request.finding.id)];
+  --counts[static_cast<std::size_t>(request.finding.id)];
   syntax::TreeStore store;
   const char* const end = text->data() + text->size();
   for (const char* p = text->data();;) {

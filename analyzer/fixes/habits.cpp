@@ -152,8 +152,8 @@ void Habits::find_centers() {
 
 /// On other controls G20 and G21, or G700 and G710, set inches and millimeters; rewriting only some of them would mix
 /// the units.
-Habits::FoundRewrites Habits::find_foreign_units() {
-  FoundRewrites found;
+HabitRewrites Habits::find_foreign_units() {
+  HabitRewrites rewrites;
   for (std::size_t number = 0; number < program_.line_count(); ++number) {
     if (program_.text(number).find_first_of("Gg") == std::string_view::npos) continue;
     const LineTree tree = line(number);
@@ -164,18 +164,18 @@ Habits::FoundRewrites Habits::find_foreign_units() {
       const FixRequest request{number, finding, true, tree, program_};
       rewrite.what = word.value == 20 || word.value == 700 ? "G70" : "G71";
       rewrite.edits.push_back(replaced(request, word.span(), rewrite.what));
-      if (!helps(request, rewrite.edits)) return {.is_shown = true};
+      if (!helps(request, rewrite.edits)) return {};
     }
-    if (!rewrite.edits.empty() && program_.is_read(number)) found.rewrites.push_back(std::move(rewrite));
+    if (!rewrite.edits.empty() && program_.is_read(number)) rewrites.push_back(std::move(rewrite));
   }
-  found.is_shown = !found.rewrites.empty();
-  return found;
+  return rewrites;
 }
 
 /// G04 P500: if one time is far too long for seconds, all are milliseconds, unless one has a decimal point or is too
 /// short for that.
-Habits::FoundRewrites Habits::find_milliseconds() {
-  FoundRewrites found;
+HabitRewrites Habits::find_milliseconds() {
+  HabitRewrites rewrites;
+  bool is_shown = false;
   for (std::size_t number = 0; number < program_.line_count(); ++number) {
     if (program_.text(number).find_first_of("Gg") == std::string_view::npos) continue;
     const LineTree tree = line(number);
@@ -188,12 +188,12 @@ Habits::FoundRewrites Habits::find_milliseconds() {
       const bool may_be_milliseconds =
           time->known() && time->value >= kFewMilliseconds && text.find_first_of(".(") == std::string_view::npos;
       if (!may_be_milliseconds) return {};
-      found.is_shown |= time->value > program_.thresholds().longest_dwell;
+      is_shown |= time->value > program_.thresholds().longest_dwell;
       std::string what = text.front() + dialect::written_number(time->value / 1000, 6);
-      found.rewrites.push_back({number, {{{number, time->begin}, {number, time->end}, what}}, what});
+      rewrites.push_back({number, {{{number, time->begin}, {number, time->end}, what}}, what});
     }
   }
-  return found.is_shown ? found : FoundRewrites{};
+  return is_shown ? rewrites : HabitRewrites{};
 }
 
 const Habits::FoundRewrites& Habits::found(Habit habit) {
@@ -208,10 +208,10 @@ const Habits::FoundRewrites& Habits::found(Habit habit) {
       find_centers();
       break;
     case Habit::ForeignUnits:
-      known = find_foreign_units();
+      known = FoundRewrites{.rewrites = find_foreign_units()};
       break;
     case Habit::Milliseconds:
-      known = find_milliseconds();
+      known = FoundRewrites{.rewrites = find_milliseconds()};
       break;
   }
   return *known;
@@ -219,9 +219,9 @@ const Habits::FoundRewrites& Habits::found(Habit habit) {
 
 const HabitRewrites& Habits::rewrites(Habit habit) { return found(habit).rewrites; }
 
-bool Habits::shows(Habit habit) { return found(habit).is_shown; }
+bool Habits::shows(Habit centers) { return found(centers).is_shown; }
 
-bool Habits::leaves_open(Habit habit) { return found(habit).is_open; }
+bool Habits::leaves_open(Habit centers) { return found(centers).is_open; }
 
 bool Habits::separates_thousands() {
   if (separates_thousands_) return *separates_thousands_;

@@ -34,17 +34,17 @@ class Habits {
   /// rewritten: for example, if some arcs are legal only as written, which contradicts the habit, and others are legal
   /// both ways.
   const HabitRewrites& rewrites(Habit habit);
-  /// Whether some place in the program shows the habit and has no other meaning.
-  bool shows(Habit habit);
-  /// Whether some places in the program are legal both with and without the habit, and nothing contradicts it.
-  bool leaves_open(Habit habit);
+  /// Whether some arc shows this habit of writing centers and has no other meaning.
+  bool shows(Habit centers);
+  /// Whether some arcs are legal both with and without this habit of writing centers, and nothing contradicts it.
+  bool leaves_open(Habit centers);
   /// Whether a number in the program has commas between its thousands, such as 1,234.5.
   bool separates_thousands();
 
  private:
   struct FoundRewrites {
     HabitRewrites rewrites;
-    bool is_shown = false;
+    bool is_shown = false;  // As shows() and leaves_open() tell; of centers only.
     bool is_open = false;
   };
 
@@ -52,8 +52,8 @@ class Habits {
   syntax::LineTree line(std::size_t number);
   const FoundRewrites& found(Habit habit);
   void find_centers();
-  FoundRewrites find_foreign_units();
-  FoundRewrites find_milliseconds();
+  HabitRewrites find_foreign_units();
+  HabitRewrites find_milliseconds();
 
   FixProgram& program_;
   syntax::TreeStore line_;

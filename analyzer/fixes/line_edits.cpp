@@ -60,6 +60,12 @@ bool is_blank(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return text::is_blank(c); });
 }
 
+int decimals_of(std::string_view number) {
+  const std::size_t point = number.find('.');
+  if (point == std::string_view::npos) return 0;
+  return static_cast<int>(std::min<std::size_t>(number.size() - point - 1, kMaxDecimals));
+}
+
 std::string_view indentation(std::string_view line) {
   std::size_t blanks = 0;
   while (blanks < line.size() && text::is_blank(line[blanks])) ++blanks;

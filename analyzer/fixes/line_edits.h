@@ -24,6 +24,11 @@ std::string edited(std::string_view line, std::vector<Edit> edits);
 /// Effects of earlier lines and edits of other lines are not considered.
 bool helps(const FixRequest& request, const std::vector<Edit>& edits);
 
+/// The maximum number of decimals that fixes write.
+inline constexpr int kMaxDecimals = 9;
+/// The number of decimals of a written number, at most kMaxDecimals.
+int decimals_of(std::string_view number);
+
 /// The blanks at the start of the line.
 std::string_view indentation(std::string_view line);
 bool is_blank(std::string_view text);

@@ -79,10 +79,10 @@ Draft end_of_program(const FixRequest& request) {
   return {{inserted(request, static_cast<std::uint32_t>(line.size()), std::move(text))}};
 }
 
-/// M30, which ends the program on other controls.
+/// M30, which ends the program on other controls. Beside an F or S, which helps() would find (ISO043), it stays.
 Draft m02_for_m30(const FixRequest& request) {
   const LineTree& line = request.line;
-  const bool is_alone = line.instructions.size() == 1 && line.feed < 0 && line.spindle < 0 && line.findings.empty();
+  const bool is_alone = line.instructions.size() == 1 && line.findings.empty();
   if (!is_alone || line.instructions.front().kind != InstructionKind::Function) return {};
   const Word& m30 = line.command(line.instructions.front());
   if (m30.value != 30 || line.instructions.front().end != line.instructions.front().command + 1) return {};

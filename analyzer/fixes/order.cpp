@@ -105,11 +105,9 @@ Draft on_its_own_line(const FixRequest& request) {
   return draft;
 }
 
-/// G00 X2 Y3 G70: moves the G70 to the start.
+/// G00 X2 Y3 G70: moves the G70 to the start. The finding says that other words are before it.
 Draft mode_first(const FixRequest& request) {
-  const Word* const first = first_word(request.line);
-  if (!first || first->begin >= request.finding.span.begin) return {};
-  return moved(request, request.finding.span, first->begin, true);
+  return moved(request, request.finding.span, first_word(request.line)->begin, true);
 }
 
 /// G1 X1 S500 Z5: moves the Z next to the X. S and N may be anywhere, so that alone they are no reason to move words.
@@ -140,9 +138,9 @@ Draft arguments_together(const FixRequest& request) {
 
 /// X10 G1: moves the G1 before the X10.
 Draft command_first(const FixRequest& request) {
-  const Span command = request.finding.related;
-  if (command.empty() || command.begin < request.finding.span.begin) return {};
-  return moved(request, command, request.finding.span.begin, true);
+  using namespace dialect::literals;
+  if (!request.finding.has("stray-argument/before-its-g"_cause)) return {};
+  return moved(request, request.finding.related, request.finding.span.begin, true);
 }
 
 /// The first word of the line's first motion, or null.

@@ -80,14 +80,14 @@ Draft removed_repetition(const FixRequest& request) {
   return removed_mark(request);
 }
 
-/// G90 G91: the first has no effect, unless an instruction between them uses it.
+/// G90 G91: the first has no effect, unless an instruction between them uses it. No G between them does: a motion would
+/// keep the rule from reporting the first (D14), and a dwell, a frame or an unknown G is an error on such a line.
 Draft removed_earlier_mode(const FixRequest& request) {
   const Span earlier = request.finding.related;
   const auto matters = [&](const Word& word) {
     if (word.begin <= earlier.begin || word.begin >= request.finding.span.begin) return false;
     const Instruction* const owner = owner_of(request.line, word);
-    return owner != nullptr && (owner->kind != syntax::InstructionKind::G || owner->is_motion() || !owner->g() ||
-                                owner->g()->takes_arguments());
+    return owner != nullptr && owner->kind != syntax::InstructionKind::G;
   };
   if (earlier.empty() || holds_comment(request.line.text_of(earlier))) return {};
   if (std::any_of(request.line.words.begin(), request.line.words.end(), matters)) return {};

@@ -103,12 +103,6 @@ Draft without_equals(const FixRequest& request) {
   return {{replaced(request, {at, at + 1}, {})}};
 }
 
-static int decimals_of(std::string_view number) {
-  const std::size_t point = number.find('.');
-  if (point == std::string_view::npos) return 0;
-  return static_cast<int>(std::min<std::size_t>(number.size() - point - 1, 9));
-}
-
 /// C270 is the same direction as C-90.
 Draft angle_in_range(const FixRequest& request) {
   const double angle = std::remainder(request.finding.values[0], 360);
