@@ -405,18 +405,11 @@ void ChangeList::remove_idle_stops() {
     for (std::size_t i = 0; i < changes_.size(); ++i)
       if (is_alone(i, is_old)) alone[is_old ? places_[i].a_begin : places_[i].b_begin] = i;
     for (const auto& [action, change] : alone) {
-      std::size_t before = action;
       if (run.actions[action].number != 5) continue;
-      if (run.actions[action].spindle > 0 && beside_stillness.contains(run.actions[action].spindle - 1)) {
-        is_idle[change] = true;
-        continue;
-      }
-      while (before > 0 && run.actions[before - 1].kind != ActionKind::Spindle &&
-             run.actions[before - 1].kind != ActionKind::Tool)
-        --before;
-      const auto started = before == 0 ? alone.end() : alone.find(before - 1);
-      if (started == alone.end()) continue;
-      is_idle[change] = run.actions[before - 1].kind == ActionKind::Spindle && run.actions[before - 1].number != 5;
+      const std::uint32_t turned = run.actions[action].spindle - 1;  // An M05 is an action where the spindle turns.
+      const std::optional<std::size_t>& start = run.spindles[turned].cause;
+      const bool is_started_alone = start && alone.contains(*start) && run.spindles[turned - 1].motion.function == 5;
+      is_idle[change] = beside_stillness.contains(turned) || is_started_alone;
     }
   }
   remove(is_idle);

@@ -367,6 +367,13 @@ const ComparisonCase kCases[] = {
      "tool -|5: added: T101001\nspeed 5-8|6-9: the spindle stands still, was S12000 M03\n"},
     {"ToolChangeThatNoLongerStopsTheSpindle", square("X100\n", "M06 T101001\nX100\n"), kSquare,
      "tool 5|-: removed: T101001\nspeed 6-9|5-8: the spindle turns, S12000 M03, stood still before\n"},
+    // What stops a spindle that has turned in both is no idle stop, whatever S waits before it.
+    {"SpindleStopAfterASpeedThatWaits", kPlunged + "X50\nY50\nX70\nM02\n",
+     kPlunged + "X50\nS8000\nY50\nM05\nX70\nM02\n", "speed -|6: added: S8000\nspeed -|8: added: M05\n"},
+    // Nor is one after a start in a spindle that turns already.
+    {"SpindleStopAfterAnotherSpeed", kPlunged + "X50 Y30\nX60 Y90\nX70\nY10\nG00 Z40\nM02\n",
+     kPlunged + "X50 Y30\nS9000 M03\nX60 Y90\nM05\nX70\nY10\nG00 Z40\nM02\n",
+     "speed -|6: added: S9000 M03\nspeed -|8: added: M05\n"},
     {"Tool", kSquare, square("T101001", "T101002"), "tool 1|1: T101002 instead of T101001\n"},
     {"Function", kSquare, square("G00 Z40\nM02", "G00 Z40\nM100 P1=2\nM02"), "function -|10: added: M100 P1=2\n"},
     {"Parameter", kSquare + "", square("G00 Z40\nM02", "G00 Z40\nM100 P1=3\nM02"), "function -|10: added: M100 P1=3\n"},
