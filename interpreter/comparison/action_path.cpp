@@ -312,22 +312,12 @@ LinePart reached(const LinePart& near, const LinePart& across, const LinePart& b
 bool goes_along(std::span<const Vec3> a, std::span<const Vec3> b, double distance) {
   if (a.size() < 2 || b.size() < 2) return false;
   if ((a.front() - b.front()).norm() > distance || (a.back() - b.back()).norm() > distance) return false;
-  // Of each line of b what can be reached while a stands at the present point.
+  // Of each line of b what can be reached while a stands at the present point; at the first one nothing yet.
   std::vector<LinePart> of_b(b.size() - 1);
-  bool goes_on = true;
-  for (std::size_t k = 0; k + 1 < b.size() && goes_on; ++k) {
-    const LinePart near = near_part(a[0], b[k], b[k + 1], distance);
-    goes_on = !near.is_empty() && near.from == 0;
-    if (goes_on) of_b[k] = near;
-    goes_on = goes_on && near.to == 1;
-  }
-  bool is_start_near = true;  // All points of a so far are near the first one of b.
   for (std::size_t i = 0; i + 1 < a.size(); ++i) {
-    // Of the line of a what can be reached while b stands at the present point.
-    LinePart of_a;
-    const LinePart at_start = near_part(b[0], a[i], a[i + 1], distance);
-    if (is_start_near && !at_start.is_empty() && at_start.from == 0) of_a = at_start;
-    is_start_near = !of_a.is_empty() && of_a.to == 1;
+    // Of the line of a what can be reached while b stands at the present point; at its first one, the start of a alone:
+    // while one of them stands at its start, the other one passes through the corners between its lines.
+    LinePart of_a = i == 0 ? LinePart{0, 0} : LinePart{};
     for (std::size_t k = 0; k + 1 < b.size(); ++k) {
       const LinePart before = of_b[k];
       of_b[k] = reached(near_part(a[i + 1], b[k], b[k + 1], distance), of_a, before);

@@ -369,7 +369,7 @@ std::string totals_text(const ComparedRuns& runs, Language language) {
   if (shows_mm(new_run.rapid_mm - old_run.rapid_mm))
     text += dialect::format(kRapidLength, language, in_thousandths(new_run.rapid_mm), in_thousandths(old_run.rapid_mm));
   if (!old_run.has_motion || !new_run.has_motion) return text;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < old_run.extents.size(); ++axis) {
     const geometry::Range& before = old_run.extents[axis];
     const geometry::Range& now = new_run.extents[axis];
     if (!shows_mm(before.minimum - now.minimum) && !shows_mm(before.maximum - now.maximum)) continue;

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/comparison/action_path.h"
 #include "interpreter/comparison/anchors.h"
 #include "tests/comparison/compared.h"
 
@@ -665,6 +666,45 @@ TEST(Anchors, OccurOnceInEachRun) {
   }
   // The tool, the first place, the holes' bottoms; the upper place of each hole is reached twice or more.
   EXPECT_EQ(lines, (std::vector<std::size_t>{1, 3, 5, 8, 11, 14}));
+}
+
+/// Two chains of places in a plane, and whether they go along each other within 1 mm.
+struct ChainCase {
+  const char* name;
+  std::vector<std::pair<double, double>> a;
+  std::vector<std::pair<double, double>> b;
+  bool goes_along;
+};
+
+const ChainCase kChains[] = {
+    {"Itself", {{0, 0}, {10, 0}}, {{0, 0}, {10, 0}}, true},
+    {"OtherParts", {{0, 0}, {4, 0}, {10, 0}}, {{0, 0}, {7, 0}, {10, 0}}, true},
+    {"Beside", {{0, 0}, {10, 0}}, {{0, 1}, {10, 1}}, true},
+    {"TooFar", {{0, 0}, {10, 0}}, {{0, 1.1}, {10, 1.1}}, false},
+    {"OtherStart", {{0, 0}, {10, 0}}, {{-2, 0}, {10, 0}}, false},
+    {"OtherEnd", {{0, 0}, {10, 0}}, {{0, 0}, {12, 0}}, false},
+    {"BackABit", {{0, 0}, {10, 0}}, {{0, 0}, {6, 0}, {4.5, 0}, {10, 0}}, true},
+    {"BackTooFar", {{0, 0}, {10, 0}}, {{0, 0}, {6, 0}, {3, 0}, {10, 0}}, false},
+    {"StepsAroundTheStart", {{0, 0}, {10, 0}}, {{0, 0}, {-0.9, 0}, {0, 0.9}, {0, 0}, {10, 0}}, true},
+    {"StepsTooFarFromTheStart", {{0, 0}, {10, 0}}, {{0, 0}, {-1.1, 0}, {0, 0.9}, {0, 0}, {10, 0}}, false},
+    {"StepsAroundBothStarts", {{0, 0}, {0, 0.4}, {0.4, 0}, {10, 0}}, {{0, 0}, {-0.4, 0}, {0, -0.4}, {10, 0}}, true},
+    {"StepsAroundTheEnd", {{0, 0}, {10, 0}}, {{0, 0}, {10, 0}, {10.9, 0}, {10, 0.9}, {10, 0}}, true},
+    {"APlaceTwice", {{0, 0}, {5, 0}, {5, 0}, {10, 0}}, {{0, 0}, {5, 0}, {10, 0}}, true},
+    {"APlaceTwiceAway", {{0, 0}, {5, 2}, {5, 2}, {10, 0}}, {{0, 0}, {10, 0}}, false},
+    {"OnePlaceTwiceOnly", {{0, 0}, {0, 0}}, {{0, 0}, {0.5, 0}, {0, 0}}, true},
+    {"CircleTheOtherWayAround", {{0, 0}, {5, 0}, {5, 5}, {0, 0}}, {{0, 0}, {5, 5}, {5, 0}, {0, 0}}, false},
+};
+
+TEST(ActionPath, ChainsGoAlongEachOther) {
+  const auto chain = [](const std::vector<std::pair<double, double>>& places) {
+    std::vector<geometry::Vec3> points;
+    for (const auto& [x, y] : places) points.emplace_back(x, y, 0);
+    return points;
+  };
+  for (const ChainCase& each : kChains) {
+    EXPECT_EQ(goes_along(chain(each.a), chain(each.b), 1), each.goes_along) << each.name;
+    EXPECT_EQ(goes_along(chain(each.b), chain(each.a), 1), each.goes_along) << each.name << ", exchanged";
+  }
 }
 
 TEST(Comparison, ToleranceDecides) {
