@@ -203,6 +203,12 @@ const ComparisonCase kCases[] = {
      "shape 5|5: another path, up to 28.284 mm away\nshape 7|7: another path, up to 21.213 mm away\n"},
     {"CircleTheOtherWayAround", kPlunged + "G03 X10 Y20 I30 J20\nG01 X20\nM02\n",
      kPlunged + "G02 X10 Y20 I30 J20\nG01 X20\nM02\n", "shape 5|5: the same path the other way around\n"},
+    // Each of them alone, as they follow each other in one program only.
+    {"ContourTheOtherWayAroundWithAnotherFeed", kPlunged + "X100\nY80\nX10\nY20\nG00 Z40\nM02\n",
+     kHead + "G01 Z-5 F3000\nY80\nX100\nY20\nX10\nG00 Z40\nM02\n",
+     "feed 4|4: F3000 instead of F2000\nshape 5-8|5-8: the same path the other way around\n"
+     "feed 5|8: F3000 instead of F2000\nfeed 6|7: F3000 instead of F2000\nfeed 7|6: F3000 instead of F2000\n"
+     "feed 8|5: F3000 instead of F2000\n"},
     {"ContourTheOtherWayAround", kSquare, square("X100\nY80\nX10\nY20\n", "Y80\nX100\nY20\nX10\n"),
      "shape 5-8|5-8: the same path the other way around\n"},
     {"SplitOnALineBesideAFunction", kPlunged + "M08\nX60\nY50\nM02\n", kPlunged + "M09\nX40\nX60\nY50\nM02\n",
@@ -234,8 +240,22 @@ const ComparisonCase kCases[] = {
     {"FeedOfOtherPartsBesideAMovedLine", kPlunged + "X40\nX70\nY80\nX10\nY50\nM02\n",
      kPlunged + "X71 F1000\nX70 Y80 F2000\nX10\nY50\nM02\n",
      "moved 5-6|5: moved by X1\nfeed 5-6|5: F1000 instead of F2000\n"},
+    {"PartsOfOtherFeedsBesideAMovedLine", kPlunged + "X20 Y20\nX30 Y20\nX35 Y20 F3000\nX40 Y20\nG00 Z40\nM02\n",
+     kPlunged + "X20 Y21\nX30 Y20 F2000\nX35 Y20 F3000\nG00 Z40\nM02\n",
+     "shape 5-9|5-8: another path, 4 motions instead of 5, up to 5 mm away\nfeed 7|6: F2000 instead of F3000\n"},
+    {"PartsAroundAFunctionBesideAMovedLine", kPlunged + "X20\nM08\nX30\nX40 Y50\nX9 Y3\nM02\n",
+     kPlunged + "X31\nX40 Y50\nX9 Y3\nM02\n",
+     "shape 5-7|5: another path, 1 motion instead of 2, up to 0.949 mm away\nfunction 6|-: removed: M08\n"},
+    {"ArcAndLineInsteadOfAMovedLine", kPlunged + "G03 X30 Y20 R12\nG01 X50\nX60 Y90\nX9 Y3\nM02\n",
+     kPlunged + "G01 X51\nX60 Y90\nX9 Y3\nM02\n",
+     "shape 5-6|5: another path, 1 motion instead of 2, up to 5.367 mm away\n"},
     {"PlaceOnALineThatLeavesIt", kPlunged + "X40\nX70\nX99\nY50\nM02\n", kPlunged + "X40\nX70 Y90\nX99 Y20\nY50\nM02\n",
      "moved 6|6: moved by Y70\n"},
+    // Each of the two, though the same rapid is there elsewhere.
+    {"RapidAndFeedMoveExchangedInAMovedRow",
+     kPlunged + "G91\nG00 X40 Y3\nG01 X30 Y-5 F900\nX30 Y9\nG90\nX500\nY9\nX2\nM02\n",
+     kPlunged + "G91\nG01 X41 Y5 F900\nG00 X40 Y3\nG01 X31 Y11\nG90\nX500\nY9\nX2\nM02\n",
+     "feed 6|6: F900 instead of G00\nmoved 6-10|6-10: moved by up to 16.971 mm\nfeed 7|7: G00 instead of F900\n"},
     {"HeightFromWhichToPlunge", kHead + "Z2\nG01 Z-2 F1000\nX50\nM02\n", kHead + "Z1.5\nG01 Z-2 F1000\nX50\nM02\n",
      "moved 4|4: moved by Z-0.5\n"},
     {"RapidInsteadOfHalfAFeedMove", kHead + "G01 X50 F500\nY7\nM02\n", kHead + "G00 X30\nG01 X50 F500\nY7\nM02\n",
@@ -294,6 +314,32 @@ const ComparisonCase kCases[] = {
      "moved 9-12|9-12: moved by X40\nmoved 17-20|17-20: moved by X-39\n"},
     {"LinesSwapped", kHead + "X50 Y50\nX100 Y0\nX0 Y7\nM02\n", kHead + "X100 Y0\nX50 Y50\nX0 Y7\nM02\n",
      "reordered 4-5|4-5: order changed\n"},
+    {"LinesSwappedBeforeMovedOnes", kPlunged + "X50 Y50\nX100 Y0\nX0 Y7\nX30\nX44 Y2\nX9 Y9\nG00 Z40\nM02\n",
+     kPlunged + "X100 Y0\nX50 Y50\nX1 Y7\nX31\nX45 Y2\nX10 Y9\nG00 Z40\nM02\n",
+     "reordered 5-6|5-6: order changed\nmoved 7-11|7-11: moved by X1\n"},
+    {"LinesSwappedAroundOneOfAnotherFeed",
+     kPlunged + "X50 Y50 F1000\nX100 Y0 F2000\nX30 Y30 F1000\nX0 Y7 F900\nG00 Z40\nM02\n",
+     kPlunged + "X30 Y30 F1000\nX100 Y0 F2500\nX50 Y50 F1000\nX0 Y7 F900\nG00 Z40\nM02\n",
+     "reordered 5-7|5-7: order changed\nfeed 6|6: F2500 instead of F2000\n"},
+    // The control knows the tool's radius alone; the motion that closes them is on the same side as well.
+    {"LinesSwappedUnderCompensation",
+     "M06 T102001\nS12000 M03\nG00 X0 Y0 Z5\nG41\nG01 X10 Y10 F1000\nX50 Y50\nX100 Y0\nX0 Y7\nG40\nG01 X20 Y30\nX9 "
+     "Y9\nX4 Y2\nM02\n",
+     "M06 T102001\nS12000 M03\nG00 X0 Y0 Z5\nG41\nG01 X10 Y10 F1000\nX100 Y0\nX50 Y50\nX0 Y7\nG40\nG01 X20 Y30\nX9 "
+     "Y9\nX4 Y2\nM02\n",
+     "reordered 6-7|6-7: order changed\n"},
+    {"LinesSwappedBeforeOneOfAnotherFeed", kPlunged + "X50 Y50\nX100 Y0\nX0 Y7\nX30\nX44 Y2\nG00 Z40\nM02\n",
+     kPlunged + "X100 Y0\nX50 Y50\nX0 Y7 F3000\nX30 F2000\nX44 Y2\nG00 Z40\nM02\n",
+     "reordered 5-6|5-6: order changed\nfeed 7|7: F3000 instead of F2000\n"},
+    // A place that is reached twice: where it is in its old place, it stays.
+    {"PlaceTwiceOfWhichOneStays",
+     kPlunged + "X50 Y50 F1000\nX100 Y0 F2000\nX50 Y50 F3000\nX30 Y30 F1500\nX60 Y9 F1200\nX0 Y7 F900\nM02\n",
+     kPlunged + "X30 Y30 F1500\nX100 Y0 F2000\nX50 Y50 F3000\nX60 Y9 F1200\nX50 Y50 F1000\nX0 Y7 F900\nM02\n",
+     "reordered 5-9|5-9: order changed\n"},
+    // A rapid goes nowhere the other way around.
+    {"ContourWithARapidInAnotherOrder", kPlunged + "X100\nG00 Y80\nG01 X10\nY20\nG00 Z40\nM02\n",
+     kPlunged + "Y80\nX100\nY20\nX10\nG00 Z40\nM02\n",
+     "reordered 5-7|5-7: order changed\nfeed 6|6: F2000 instead of G00\n"},
     {"IncrementsSwapped", kHead + "G91\nX50 Y50\nX100 Y0\nX9 Y7\nM02\n", kHead + "G91\nX100 Y0\nX50 Y50\nX9 Y7\nM02\n",
      "reordered 5-6|5-6: order changed\n"},
 
@@ -319,6 +365,13 @@ const ComparisonCase kCases[] = {
     {"OperationMovedAndOneChanged", operations("1234"), replaced(operations("2341"), "F4000", "F4500"),
      "reordered 1-9|28-36: order changed: now after T101004, was the first one\n"
      "feed 32-34|23-25: F4500 instead of F4000\n"},
+    {"OperationGainedBeforeAChangedOne", operations("13"), replaced(operations("123"), "F3000", "F3500"),
+     "added -|10-18: added: operation of T101002, 6 motions\nfeed 14-16|23-25: F3500 instead of F3000\n"},
+    {"OperationOfAnotherToolAndOneGained", operations("12"), replaced(operations("123"), "T101001", "T101004"),
+     "tool 1|1: T101004 instead of T101001\nadded -|19-27: added: operation of T101003, 6 motions\n"},
+    {"OperationLostAndALaterOneOfAnotherTool", operations("123"), replaced(operations("2356"), "T101003", "T101004"),
+     "removed 1-9|-: removed: operation of T101001, 6 motions\ntool 19|10: T101004 instead of T101003\n"
+     "added -|19-27: added: operation of T101005, 6 motions\nadded -|28-36: added: operation of T101006, 6 motions\n"},
     {"OperationLostAndMotionsOfAnotherOne", operations("12"), replaced(operations("1"), "G00 Z50", "X150\nG00 Z50"),
      "added -|8: added: 1 motion\nmoved 8|9: moved by X10\nremoved 10-18|-: removed: operation of T101002, 6 "
      "motions\n"},
@@ -366,6 +419,11 @@ const ComparisonCase kCases[] = {
      "reordered 8-9|8-9: order changed\nspeed 11-12|11-12: the spindle stands still, was S9000 M03\n"},
     {"ToolChangeThatStopsTheSpindle", kSquare, square("X100\n", "M06 T101001\nX100\n"),
      "tool -|5: added: T101001\nspeed 5-8|6-9: the spindle stands still, was S12000 M03\n"},
+    // What has another speed before the tool change does not say that it stands after it.
+    {"ToolChangeThatStopsASpindleOfAnotherSpeed", kPlunged + "X50 Y30\nX60 Y90\nX70\nY10\nX90\nG00 Z40\nM02\n",
+     kPlunged + "S11000 M03\nX50 Y30\nX60 Y90\nM06 T101001\nX70\nY10\nX90\nG00 Z40\nM02\n",
+     "speed -|5: added: S11000 M03\ntool -|8: added: T101001\n"
+     "speed 7-9|9-11: the spindle stands still, was S12000 M03\n"},
     {"ToolChangeThatNoLongerStopsTheSpindle", square("X100\n", "M06 T101001\nX100\n"), kSquare,
      "tool 5|-: removed: T101001\nspeed 6-9|5-8: the spindle turns, S12000 M03, stood still before\n"},
     // What stops a spindle that has turned in both is no idle stop, whatever S waits before it.
@@ -393,6 +451,15 @@ const ComparisonCase kCases[] = {
     {"DwellInOtherPartsBesideAMovedLine", kPlunged + "X60\nG04 P1\nG04 P2\nG04 P3\nG00 X99\nM02\n",
      kPlunged + "X61\nG04 P2\nG04 P2\nG04 P2.5\nG00 X99\nM02\n",
      "moved 5|5: moved by X1\ndwell 6-8|6-8: dwell of 6.5 s instead of 6 s\n"},
+    // Lines of which one is lost and another one is new are taken for each other in their order, feeds included.
+    {"LineLostAndAnotherOneGainedInAMovedRow",
+     kPlunged + "X20 Y40 F4000\nX30 Y20\nX40 Y40 F3000\nX50 Y22\nX60 Y45\nX90 Y50\nX95 Y0\nM02\n",
+     kPlunged + "X21 Y41 F4000\nX41 Y43 F3000\nX20 Y70\nX51 Y22\nX61 Y47\nX90 Y50\nX95 Y0\nM02\n",
+     "moved 5-9|5-9: moved by up to 36.056 mm\nfeed 6|6: F3000 instead of F4000\n"},
+    {"LineLostAndAnArcGainedInAMovedRow",
+     kPlunged + "X20 Y40 F4000\nX30 Y20\nX40 Y40 F3000\nX50 Y22\nX60 Y45\nX90 Y50\nX95 Y0\nM02\n",
+     kPlunged + "X21 Y41 F4000\nX41 Y43 F3000\nG02 X20 Y70 R40\nG01 X51 Y22\nX61 Y47\nX90 Y50\nX95 Y0\nM02\n",
+     "shape 5-9|5-9: another path, up to 30 mm away\n"},
     {"OneOfTwoDwellsIsLonger", kPlunged + "X60\nG04 P1\nG04 P2\nG00 X99\nM02\n",
      kPlunged + "X61\nG04 P1\nG04 P3\nG00 X99\nM02\n",
      "moved 5|5: moved by X1\ndwell 7|7: dwell of 3 s instead of 2 s\n"},
@@ -408,6 +475,10 @@ const ComparisonCase kCases[] = {
     {"JumpWithoutIfInTheOtherProgram", kHead + "X20\nX50 Y50\nX70 Y0\nN5 X90 Y90\nX100\nY110\nX120\nM02\n",
      kHead + "X20\nIF VGPL = 0 GOTO N5\nX50 Y50\nX70 Y0\nN5 X90 Y90\nX100\nY110\nX120\nM02\n",
      "path 5-6|5: another path: the IF of line 5 jumps in the new program only (0 motions instead of 2)\n"},
+    {"JumpBeforeAnotherChange", kHead + "X20\nX50 Y50\nX70 Y0\nN5 X90 Y90\nX100\nM08\nY110\nX120\nM02\n",
+     kHead + "X20\nIF VGPL = 0 GOTO N5\nX50 Y50\nX70 Y0\nN5 X90.5 Y90\nX100\nM08\nY110\nX120\nM02\n",
+     "path 5-6|5: another path: the IF of line 5 jumps in the new program only (0 motions instead of 2)\n"
+     "moved 7|8: moved by X0.5\n"},
     {"JumpToAnotherBranch",
      kHead + "IF VGPL = 1 GOTO N5\nX50 Y50\nX70\nIF V1 = 0 GOTO N6\nN5 X20 Y30\nX90\nN6 X99 Y99\nX110\nY120\nM02\n",
      kHead + "IF VGPL = 0 GOTO N5\nX50 Y50\nX70\nIF V1 = 0 GOTO N6\nN5 X20 Y30\nX90\nN6 X99 Y99\nX110\nY120\nM02\n",
@@ -435,6 +506,8 @@ const ComparisonCase kTurnsAndOrders[] = {
     // cos 22.5).
     {"TurnLost", kHead + "B45\nX50 Y9\nG01 Z0 F500\nX90\nM02\n", kHead + "X50 Y9\nG01 Z0 F500\nX90\nM02\n",
      "shape 4-7|4-6: another path, 3 motions instead of 4, up to 13.702 mm away, B or C turned by up to 45 degrees\n"},
+    {"TurnAndBackLost", kPlunged + "G49\nX50\nC30\nC0\nX60\nM02\n", kPlunged + "G49\nX50\nX60\nM02\n",
+     "removed 7-8|-: removed: 2 motions\n"},
     {"TurnOfALineLost", kHead + "X60 C90\nX80\nX90\nM02\n", kHead + "X60\nX80\nX90\nM02\n",
      "shape 4-6|4-6: B or C turned by up to 90 degrees\n"},
     // How deep a hole is says nothing about the way beside it.
@@ -595,6 +668,10 @@ TEST(Comparison, ComparesTheWholePathOfIndependentRapids) {
   EXPECT_NE(shown_on(one, in_two), "");
   EXPECT_NE(shown_on(one, with_y_first), "");
   EXPECT_EQ(shown_on(one, one), "");
+  // Y has arrived long before X is there: the rest of the way is a line, a place on which is on the way.
+  EXPECT_EQ(shown_on(one, kHead + "X160 Y80\nX310\nM02\n"), "");
+  EXPECT_EQ(shown_on(one, kHead + "X160 Y80\nX310 Y80.5\nM02\n"),
+            "shape 4|4-5: another path, 2 motions instead of 1, up to 0.5 mm away\n");
   EXPECT_EQ(shown_on(one, replaced(one, "X310", "X312")), "moved 4|4: moved by X2\n");
   // Motions of one axis are lines on every machine.
   EXPECT_EQ(shown_on(with_y_first, kHead + "Y50\nY80\nX310\nM02\n"), "");
@@ -641,6 +718,16 @@ TEST(Comparison, NamesATurnedFrameOnce) {
     EXPECT_NE(in_words(changes[0], dialect::Language::English).find(": the frame of line 4 is turned"),
               std::string::npos);
   }
+  // So are arcs in it whose numbers the tolerance allows.
+  const std::vector<BehaviorChange> rounded =
+      changes_between(in_frame("30"), replaced(in_frame("35"), "X50 Y30", "X50.0005 Y30"));
+  ASSERT_EQ(rounded.size(), 1U) << shown(rounded);
+  EXPECT_EQ(rounded[0].kind, ChangeKind::Frame);
+  // An arc that goes the other way around is more than that.
+  const std::vector<BehaviorChange> around = changes_between(in_frame("30"), replaced(in_frame("35"), "G03", "G02"));
+  EXPECT_TRUE(std::any_of(around.begin(), around.end(), [](const BehaviorChange& each) {
+    return each.kind == ChangeKind::Shape;
+  })) << shown(around);
   // A motion that is moved within the frame as well is one of its own.
   std::string other = in_frame("35");
   other.replace(other.find("X50\n"), 4, "X53\n");
@@ -648,6 +735,41 @@ TEST(Comparison, NamesATurnedFrameOnce) {
   EXPECT_TRUE(std::any_of(both.begin(), both.end(), [](const BehaviorChange& each) {
     return each.kind != ChangeKind::Frame;
   })) << shown(both);
+}
+
+/// What one program has between motions that are moved by nearly the same vector divides them.
+TEST(Comparison, NamesMovedMotionsBesideWhatOneProgramHasAlone) {
+  const auto zigzag = [](double first, double second, const std::string& between) {
+    std::string program = kPlunged;
+    for (int i = 0; i < 10; ++i) {
+      if (i == 5) program += between;
+      program += fmt::format("X{} Y{}\n", 50 + 20 * i + (i < 5 ? first : second), 40 + i % 2 * 7);
+    }
+    return program + "G00 Z40\nM02\n";
+  };
+  const std::string old_program = zigzag(0, 0, "");
+  EXPECT_EQ(shown(changes_between(old_program, zigzag(1, 1.003, ""))), "moved 5-15|5-15: moved by up to 1.003 mm\n");
+  EXPECT_EQ(shown(changes_between(old_program, zigzag(1, 1.003, "X135 Y90\n"))),
+            "moved 5-9|5-9: moved by X1\n"
+            "added 10|10: added: 1 motion; the next one takes another path, up to 45.872 mm away\n"
+            "moved 10-15|11-16: moved by X1.003\n");
+}
+
+/// More motions than those among which a difference is looked for in all ways, after which a program goes on from where
+/// it was; the other program has more of its own later, as each of the two may be the longer one.
+TEST(Comparison, NamesALongDetourThatEndsWhereItBegan) {
+  const auto detour = [](int x, int count, int bend) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += fmt::format("X{} Y{}\n", x + 3 * i, 50 + i * i * bend % 37);
+    return text;
+  };
+  const auto program = [](const std::string& first, const std::string& second) {
+    return kPlunged + "X50 Y50\nY60\nX60\n" + first + "Y-50\nX7\nX3 Y99\nX1 Y90\n" + second +
+           "X-40\nX-45 Y3\nX-90 Y4\nX-91\nG00 Z40\nM02\n";
+  };
+  EXPECT_EQ(shown(changes_between(program(detour(70, 60, 1) + "X60 Y60\n", ""),
+                                  program("", detour(500, 90, 2) + "X1 Y90\n"))),
+            "removed 8-68|-: removed: 61 motions\nadded -|12-102: added: 91 motions\n");
 }
 
 /// A vertical stroke occurs many times and is no anchor; the place of each hole is one.
@@ -666,6 +788,20 @@ TEST(Anchors, OccurOnceInEachRun) {
   }
   // The tool, the first place, the holes' bottoms; the upper place of each hole is reached twice or more.
   EXPECT_EQ(lines, (std::vector<std::size_t>{1, 3, 5, 8, 11, 14}));
+}
+
+/// With a large tolerance, neighbors have one place, but each its own numbers.
+TEST(Anchors, AreFoundByNumbersWhateverTheToleranceIs) {
+  const RecordedRun run = recorded(kPlunged + "X10.5\nX11\nX11.5\nX12\nM02\n");
+  const RunPair pair{run, run, 1};
+  const Anchors anchors(pair);
+  const PlaceInBoth after_plunge{4, 4};
+  const auto line_after = [&](Anchors::AnchorRow row) {
+    const std::optional<PlaceInBoth> next = anchors.next(after_plunge, row);
+    return next ? std::optional(run.actions[next->a].line + 1) : std::nullopt;
+  };
+  EXPECT_EQ(line_after(Anchors::AnchorRow::Numbers), std::optional(5U));
+  EXPECT_EQ(line_after(Anchors::AnchorRow::Place), std::nullopt);
 }
 
 /// Two chains of places in a plane, and whether they go along each other within 1 mm.
@@ -707,10 +843,33 @@ TEST(ActionPath, ChainsGoAlongEachOther) {
   }
 }
 
+/// What one distance takes is no longer left for others.
+TEST(ActionPath, DistancesTakeFromWhatIsLeft) {
+  const std::vector<geometry::Vec3> chain = {{0, 0, 0}, {10, 0, 0}};
+  const std::vector<geometry::Vec3> other = {{0, 3, 0}, {10, 3, 0}};
+  std::size_t left = 100;
+  EXPECT_EQ(distance_from(chain, other, 0.001, &left), std::optional(3.0));
+  EXPECT_LT(left, 100U);
+  EXPECT_GT(left, 80U) << "two lines";
+  left = 0;
+  EXPECT_EQ(distance_from(chain, other, 0.001, &left), std::nullopt);
+  EXPECT_EQ(left, 0U);
+}
+
 TEST(Comparison, ToleranceDecides) {
   EXPECT_EQ(shown(changes_between(kSquare, square("X100\n", "X100.05\n"), {.tolerance = 0.06})), "");
   EXPECT_EQ(shown(changes_between(kSquare, square("X100\n", "X100.05\n"), {.tolerance = 0.04})),
             "moved 5-6|5-6: moved by X0.05\n");
+}
+
+/// However large the tolerance is beside the radius, a half circle the other way around is another path.
+TEST(Comparison, NamesArcsTheOtherWayAroundWithAnyTolerance) {
+  const auto half_circle = [](const std::string& function, double radius) {
+    return fmt::format("{}G01 X0 Y0 F500\n{} X{} Y0 I{} J0\nG01 Y50\nX0\nM02\n", kHead, function, 2 * radius, radius);
+  };
+  for (const auto& [radius, tolerance] : {std::pair(100.0, 0.1), std::pair(1.2, 1.0)})
+    EXPECT_EQ(shown(changes_between(half_circle("G02", radius), half_circle("G03", radius), {.tolerance = tolerance})),
+              fmt::format("shape 5|5: another path, up to {:.3f} mm away\n", radius * std::sqrt(2)));
 }
 
 /// Around a corner with a tool, under the G words of its contour.
@@ -745,13 +904,16 @@ TEST(Comparison, ShowsTheSideOfCompensationByThePathWhereTheRadiusIsKnown) {
 
 /// The tool's radius is 3 mm: so far the path is away from the contour, whatever of it ends beside what.
 TEST(Comparison, NamesALostCompensationByTheRadius) {
-  const auto program = [](const std::string& side) {
-    return "M06 T101001\nS1000 M03\nG00 X-40 Y-40 Z10\nG01 Z0 F1000\nX-20 Y-20\n" + side +
+  const auto program = [](const std::string& turn, const std::string& side) {
+    return "M06 T101001\nS1000 M03\nG00 X-40 Y-40 Z10" + turn + "\nG01 Z0 F1000\nX-20 Y-20\n" + side +
            "G01 X0 Y-20\nY50\nX80\nY0\nX-20\nG40\nG00 Z20\nM02\n";
   };
-  EXPECT_EQ(shown(changes_between(program("G41 "), program(""))),
-            "shape 6-12|6-12: another path, 6 motions instead of 9, up to 3 mm away\n");
-  EXPECT_EQ(shown(changes_between(program("G41 "), program("G41 "))), "");
+  for (const char* const turn : {"", " C30"}) {
+    EXPECT_EQ(shown(changes_between(program(turn, "G41 "), program(turn, ""))),
+              "shape 6-12|6-12: another path, 6 motions instead of 9, up to 3 mm away\n")
+        << turn;
+    EXPECT_EQ(shown(changes_between(program(turn, "G41 "), program(turn, "G41 "))), "") << turn;
+  }
 }
 
 /// A path of short lines along Y = 5 sin(X / 7), with bumps in Y of some height beside some X.
@@ -823,6 +985,31 @@ TEST(Comparison, NamesABumpOfAFinePathOnce) {
               "");
 }
 
+/// So that the result is the same, mirrored, whichever of two programs is the old one: what makes them differ makes one
+/// of them the first one.
+TEST(Comparison, ProgramsThatDifferHaveAnOrder) {
+  const std::string line = kHead + "G01 X50 F500\nM02\n";
+  const std::string arc = kHead + "G02 X50 Y20 I30 J20 F500\nM02\n";
+  const std::pair<std::string, std::string> pairs[] = {
+      {line, replaced(line, "F500", "F600")},
+      {line, replaced(line, "G01 X50 F500", "G93 G01 X50 F500")},
+      {line, replaced(line, "G01 X50 F500", "G00 X50")},
+      {line, replaced(line, "X50", "X51")},
+      {line, replaced(line, "M02", "X60\nM02")},
+      {line, replaced(line, "S12000", "S9000")},
+      {line, replaced(arc, "G02", "G01")},
+      {arc, replaced(arc, "G02", "G03")},
+      {arc, replaced(arc, "I30 J20", "I30 J25")},
+      {contour("T102001", "G41"), contour("T102001", "G42")},
+  };
+  for (const auto& [one, other] : pairs) {
+    const RecordedRun left = recorded(one);
+    const RecordedRun right = recorded(other);
+    EXPECT_NE(is_before(left, right), is_before(right, left)) << one << "---\n" << other;
+    EXPECT_FALSE(is_before(left, left)) << one;
+  }
+}
+
 TEST(Comparison, SpeaksItalian) {
   const std::vector<BehaviorChange> changes = changes_between(kSquare, square("X100\n", "X101\n"));
   ASSERT_EQ(changes.size(), 1U);
@@ -851,6 +1038,8 @@ TEST(Comparison, NamesWhereEachProgramComesToAChange) {
   EXPECT_EQ(starts("\n" + square("G00 Z40", "M100\nG00 Z40"), kSquare), "function 10|9\n");
   const std::string jumping = square("X100\n", "IF VGPL = 0 GOTO N7\nX100\nN7\n");
   EXPECT_EQ(starts(square("X100\n", "IF VGPL = 1 GOTO N7\nX100\nN7\n"), "\n" + jumping), "path 5|6\n");
+  EXPECT_EQ(starts(operations("123"), "\n" + operations("13")), "removed 10|11\n");
+  EXPECT_EQ(starts("\n" + operations("13"), operations("123")), "added 11|10\n");
   EXPECT_EQ(starts(kHead + "M02\n", kHead), "end 4|3\n") << "the last line without M02";
 }
 
