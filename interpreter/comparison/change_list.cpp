@@ -271,20 +271,29 @@ void ChangeList::compare_spindles(std::size_t i, std::size_t k) {
 
 /// Where the spindle turns otherwise though each S, M03, M04 and M05 is there, as before a tool change, which stops it.
 void ChangeList::name_spindles() {
-  std::set<std::size_t> named_in_a;  // The actions that have a name.
-  std::set<std::size_t> named_in_b;
+  std::map<std::size_t, std::size_t> named_in_a;  // The change that names an action.
+  std::map<std::size_t, std::size_t> named_in_b;
   for (std::size_t i = 0; i < changes_.size(); ++i) {
     if (changes_[i].kind != ChangeKind::Speed) continue;
-    for (std::size_t k = places_[i].a_begin; k < places_[i].a_end; ++k) named_in_a.insert(k);
-    for (std::size_t k = places_[i].b_begin; k < places_[i].b_end; ++k) named_in_b.insert(k);
+    for (std::size_t k = places_[i].a_begin; k < places_[i].a_end; ++k) named_in_a[k] = i;
+    for (std::size_t k = places_[i].b_begin; k < places_[i].b_end; ++k) named_in_b[k] = i;
   }
-  const auto is_named = [](const ActionSpindle& spindle, const std::set<std::size_t>& named) {
-    return spindle.cause && named.contains(*spindle.cause);
+  const auto name_of_cause = [](const ActionSpindle& spindle, const std::map<std::size_t, std::size_t>& named) {
+    const auto found = spindle.cause ? named.find(*spindle.cause) : named.end();
+    return found == named.end() ? std::nullopt : std::optional(found->second);
+  };
+  // Another speed in the place of one says nothing about what something else than that speed does later.
+  const auto says_all = [&](const std::optional<std::size_t>& change, bool has_other) {
+    if (!change) return false;
+    const BehaviorChange& speed = changes_[*change];
+    return has_other || speed.old_value.empty() || speed.new_value.empty() || speed.later != 0;
   };
   for (const SpindleStretch& stretch : spindle_stretches_) {
     const ActionSpindle& old_spindle = runs_.a.spindles[stretch.a_spindle];
     const ActionSpindle& new_spindle = runs_.b.spindles[stretch.b_spindle];
-    if (is_named(old_spindle, named_in_a) || is_named(new_spindle, named_in_b)) continue;
+    const std::optional<std::size_t> of_a = name_of_cause(old_spindle, named_in_a);
+    const std::optional<std::size_t> of_b = name_of_cause(new_spindle, named_in_b);
+    if (says_all(of_a, of_b.has_value()) || says_all(of_b, of_a.has_value())) continue;
     BehaviorChange& change = add(ChangeKind::Speed, stretch.actions);
     change.old_value = written(old_spindle.motion);
     change.new_value = written(new_spindle.motion);

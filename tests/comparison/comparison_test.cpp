@@ -424,6 +424,11 @@ const ComparisonCase kCases[] = {
      kPlunged + "S11000 M03\nX50 Y30\nX60 Y90\nM06 T101001\nX70\nY10\nX90\nG00 Z40\nM02\n",
      "speed -|5: added: S11000 M03\ntool -|8: added: T101001\n"
      "speed 7-9|9-11: the spindle stands still, was S12000 M03\n"},
+    {"ToolChangeThatStopsASpindleOfAnotherSpeedFromTheStart",
+     kPlunged + "X50 Y30\nX60 Y90\nX70\nY10\nX90\nG00 Z40\nM02\n",
+     replaced(kPlunged, "S12000", "S11000") + "X50 Y30\nX60 Y90\nM06 T101001\nX70\nY10\nX90\nG00 Z40\nM02\n",
+     "speed 2|2: S11000 M03 instead of S12000 M03\ntool -|7: added: T101001\n"
+     "speed 7-9|8-10: the spindle stands still, was S12000 M03\n"},
     {"ToolChangeThatNoLongerStopsTheSpindle", square("X100\n", "M06 T101001\nX100\n"), kSquare,
      "tool 5|-: removed: T101001\nspeed 6-9|5-8: the spindle turns, S12000 M03, stood still before\n"},
     // What stops a spindle that has turned in both is no idle stop, whatever S waits before it.
