@@ -284,7 +284,7 @@ void Analysis::check_changed_jumps_again(const syntax::ChunkChange& change, cons
       continue;
     }
     const std::uint32_t shift = chunk < change.first ? 0 : numbers.shift;
-    row.is_stale |= row.checked->outcome.may_assign;
+    row.is_stale |= row.may_assign;
     // Registers whose value an IF below reads now and did not read before the edit, or the reverse.
     const auto differently_read = [&] { return jumps_.read_before(jump) ^ old_jumps.read_before(jump - shift); };
     RegisterSet differing = differently_read();
@@ -456,6 +456,7 @@ void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, C
   row.shift = {};
   row.positions = outcome.positions;
   row.centers = outcome.centers;
+  row.may_assign = outcome.may_assign;
   row.is_stale = false;
   if (row.labels == LabelRange::any()) row.labels = LabelRange::of(trees);
   row.has_text = outcome.has_text;

@@ -120,10 +120,11 @@ class Analysis {
     bool removes(std::uint64_t label) const;
   };
   struct Row {
-    PositionShift shift;    ///< The shift of all positions before the chunk since it was checked.
-    PositionUse positions;  ///< A copy from the outcome.
-    bool is_stale = true;   ///< Whether the chunk must be checked.
-    CenterUse centers;      ///< A copy from the outcome.
+    PositionShift shift;      ///< The shift of all positions before the chunk since it was checked.
+    PositionUse positions;    ///< A copy from the outcome.
+    bool is_stale = true;     ///< Whether the chunk must be checked.
+    CenterUse centers;        ///< A copy from the outcome.
+    bool may_assign = false;  ///< A copy from the outcome.
     bool has_text = false;
     bool has_more = false;  ///< Whether the outcome has more than text.
     FlowEvents jumps;       ///< The events that concern jumps; labels only if a jump names them.

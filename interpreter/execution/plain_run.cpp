@@ -123,11 +123,9 @@ void PlainRun::copy_unread(const State& from, const PlainEffects& row, State& to
     to.exact_stop_fits = from.exact_stop_fits;
     to.tool_prepared = from.tool_prepared;
   }
-  if (row.has_taken_feed) {
-    to.feed_per_minute = from.feed_per_minute;
-    to.last_feed = from.last_feed;
-    to.feed_on_rapid = from.feed_on_rapid;
-  }
+  to.feed_per_minute = from.feed_per_minute;
+  to.last_feed = from.last_feed;
+  to.feed_on_rapid = from.feed_on_rapid;
   if (!row.has_arc && !to.incremental()) to.unknown = from.unknown;
 }
 
