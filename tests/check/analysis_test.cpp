@@ -657,6 +657,18 @@ rules::CheckSetup house_setup(Random& random) {
   return setup;
 }
 
+/// Compares an analysis with a fresh one.
+void expect_as_fresh(const Analysis& analysis, const Document& document, const rules::CheckSetup& setup,
+                     const std::string& which) {
+  const Analysis fresh(document, setup);
+  ASSERT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << which;
+  for (std::size_t chunk = 0; chunk <= document.chunk_count(); ++chunk) {
+    const std::size_t line =
+        chunk < document.chunk_count() ? document.first_line_of_chunk(chunk) : document.line_count();
+    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+  }
+}
+
 /// What a line leaves for the next motions, where these are in another chunk than the line.
 TEST(Analysis, TheLastLineOfAChunkCountsForThoseBelow) {
   using Kind = dialect::HouseEvent::Kind;
@@ -683,12 +695,7 @@ TEST(Analysis, TheLastLineOfAChunkCountsForThoseBelow) {
     ASSERT_EQ(document.first_line_of_chunk(1), 128u);
     document.replace({127, 0}, {127, 3}, line);
     analysis.update();
-    const Analysis fresh(document, setup);
-    EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << line;
-    for (std::size_t chunk = 0; chunk < document.chunk_count(); ++chunk) {
-      const std::size_t place = document.first_line_of_chunk(chunk);
-      EXPECT_EQ(analysis.frontier_before(place), fresh.frontier_before(place)) << line << ", line " << place;
-    }
+    expect_as_fresh(analysis, document, setup, line);
   }
 }
 
@@ -708,18 +715,6 @@ std::string lasting_word(Random& random) {
                                                 "M0",          "G92 X1 Y1 Z0", "T101002 M06",
                                                 "T101001 M06", "G29 B90",      "IF VGPL=1 GOTO N7"};
   return std::string(kWords[random.below(std::size(kWords))]);
-}
-
-/// Compares an analysis with a fresh one.
-void expect_as_fresh(const Analysis& analysis, const Document& document, const rules::CheckSetup& setup,
-                     const std::string& which) {
-  const Analysis fresh(document, setup);
-  ASSERT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << which;
-  for (std::size_t chunk = 0; chunk <= document.chunk_count(); ++chunk) {
-    const std::size_t line =
-        chunk < document.chunk_count() ? document.first_line_of_chunk(chunk) : document.line_count();
-    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
-  }
 }
 
 /// A line of a row of plain motions of some kind.
