@@ -88,6 +88,28 @@ TEST(Clearance, StatesADepthThatIsNearlyAlwaysTheSmallest) {
   EXPECT_LE(larger, seeds.size() / 20);
 }
 
+/// How far a point is from a body; 0 or less within it.
+double distance_from(const RevolvedBody& tool, const AxisPlacement& at, const Vec3& point) {
+  double nearest = kExact;
+  for (const BodyPiece& piece : tool.pieces())
+    nearest = std::min(nearest, (PlacedFrustum(piece.core, at).nearest(point) - point).norm() - piece.rounding);
+  return nearest;
+}
+
+TEST(Clearance, StatesAPointOfTheBodyAndOneOfTheObstacle) {
+  for (const std::uint64_t seed : support::seeds(1'000)) {
+    Random random(seed);
+    const RevolvedBody tool = scenes::any_body(random);
+    const Cuboid box = scenes::any_cuboid(random);
+    const scenes::Touch touch = scenes::any_touch(random, box);
+    const double gap = random.one_in(2) ? random.real(-20, 0) : random.real(0, 200);
+    const AxisPlacement at = scenes::placed_at_gap(tool, scenes::any_direction(random), touch, gap);
+    const Clearance found = clearance(tool, at, box);
+    ASSERT_LE(distance_from(tool, at, found.on_body), 1e-6) << seed;
+    ASSERT_LE((box.nearest(found.on_obstacle) - found.on_obstacle).norm(), 1e-6) << seed;
+  }
+}
+
 TEST(Clearance, NeedsNoMoreThanIsSufficient) {
   const Clearance found = clearance(body(flat_body(10, 80)), upright(50, 30, 1000), kBlock, 500);
   EXPECT_GE(found.lower, 500);
@@ -152,6 +174,19 @@ TEST(Clearance, OfAMeshGrowsWithTheDepth) {
         EXPECT_NEAR(clearance(tool, upright(0, 0, -depth), mesh).upper, -depth, kExactly) << depth << " " << length;
   // Through all of it: out to the side.
   EXPECT_NEAR(clearance(body(flat_body(5, 200)), upright(0, 0, -120), mesh).upper, -105, kExactly);
+}
+
+/// Of two parts in one mesh, which are not convex together, the depth is that of the deepest point of a body, on any
+/// side of it.
+TEST(Clearance, OfAMeshIsThatOfTheDeepestPoint) {
+  std::vector<Triangle> triangles = scenes::box_triangles({{-200, -200, -200}, {200, 200, 200}});
+  for (const Triangle& triangle : scenes::box_triangles({{500, 0, 0}, {501, 1, 1}})) triangles.push_back(triangle);
+  const Mesh parts(std::move(triangles));
+  for (const double depth : {8.0, 30.0})
+    EXPECT_NEAR(clearance(body(flat_body(5, 200)), upright(0, 0, 200 - depth), parts).upper, -depth, kExactly);
+  for (const Vec3& side : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)})
+    EXPECT_NEAR(clearance(body(disc_body(50, 4)), {(200 + 50 - 70) * side, {0, 0, 1}}, parts).upper, -70, kExactly)
+        << side.transpose();
 }
 
 /// How far all of a tool must go back, whichever of its pieces is deepest, in a box and in its mesh.
@@ -221,6 +256,26 @@ TEST(Clearance, OfAPinThroughAMeshIsThatOfItsMiddle) {
   const auto part = scenes::prism({{0, 0}, {200, 0}, {200, 20}, {40, 20}, {40, 100}, {0, 100}}, 200);
   const RevolvedBody pin = body(flat_body(1, 72));
   EXPECT_NEAR(clearance(pin, upright(1000.0 / 9, 1000.0 / 9, -50), *part).upper, -(20 - 22.0 / 2), 1e-4);
+}
+
+/// A cylinder in a triangle is free at the latest after a way across the triangle's plane, or across one of its edges
+/// and the axis.
+TEST(Clearance, OfATriangleIsAtMostTheWayAcrossAnEdge) {
+  for (const std::uint64_t seed : support::seeds(3'000)) {
+    Random random(seed);
+    const RevolvedBody tool = body(flat_body(random.real(1, 10), random.real(2, 100)));
+    const Triangle triangle{
+        {scenes::any_point(random, 40), scenes::any_point(random, 40), scenes::any_point(random, 40)}};
+    const AxisPlacement at{scenes::any_point(random, 40), scenes::any_direction(random)};
+    double least = kExact;
+    const auto consider = [&](const Vec3& direction) {
+      for (const Vec3& n : {Vec3(direction.normalized()), Vec3(-direction.normalized())})
+        least = std::min(least, n.dot(scenes::farthest_point(tool, at, n)) - triangle.lowest(n));
+    };
+    consider(triangle.area_vector());
+    for (std::size_t i = 0; i < 3; ++i) consider(at.axis.cross(triangle.corners[(i + 1) % 3] - triangle.corners[i]));
+    ASSERT_LE(clearance(tool, at, Mesh({triangle})).depth(), std::max(least, 0.0) + kExactly) << seed;
+  }
 }
 
 /// A mesh of a box is as far away as the box.

@@ -99,6 +99,48 @@ TEST(InnerSurface, OfALongCutterIsDeepestBesideThePart) {
     }
 }
 
+/// Also of a long cutter that becomes wider upwards, and whose side stands upright beside the part.
+TEST(InnerSurface, OfALongTaperedCutterIsDeepestBesideThePart) {
+  constexpr int kSides = 60;
+  constexpr double kHalf = std::numbers::pi / kSides;
+  std::vector<geometry::Vec2> outline;
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = (2 * i + 1) * kHalf;
+    outline.emplace_back(20 * std::cos(angle), 20 * std::sin(angle));
+  }
+  const auto part = prism(outline, 200);
+  const RevolvedBody tool = body(stacked_body(std::vector<StackRow>{{370, 2, 39}}, 10));
+  const double lean = std::atan2(18.5, 370);
+  const Vec3 axis(std::sin(lean), 0, std::cos(lean));
+  const Vec3 aside(std::cos(lean), 0, -std::sin(lean));
+  for (const double gouge : {0.21, 0.5, 2.0})
+    for (const double low : {-200.0, -60.0, -25.0}) {
+      const Vec3 lower_end(20 * std::cos(kHalf) - gouge, 100, low);
+      const AxisPlacement at{lower_end + 1 * aside - 10 * axis, axis};
+      EXPECT_LE(distance(tool, at, part), 0) << gouge << " from " << low;
+      EXPECT_NEAR(distance(tool, at, part), kDepth - gouge, 0.03) << gouge << " from " << low;
+    }
+}
+
+/// A face with a corner that turns inwards is as deep as any other, all over it: for a tilted tool that reaches into it
+/// with its rim alone.
+TEST(InnerSurface, CoversAFaceThatTurnsInwards) {
+  const auto part = prism({{0, 0}, {0, 50}, {-50, 50}, {-50, 20}, {50, -50}, {100, -50}, {100, 0}}, 200);
+  const RevolvedBody tool = body(flat_body(15, 60));
+  const Vec3 axis = Vec3(2, -1, 1).normalized();
+  const double gouge = 0.5;
+  const Vec3 lowest = scenes::farthest_point(tool, {Vec3::Zero(), axis}, Vec3::UnitY());
+  int places = 0;
+  for (double x = -49; x < 100; x += 3.1)
+    for (double z = -49; z < 50; z += 3.1) {
+      const bool is_within = part->encloses(Vec3(x - 0.6, 1, z - 0.6)) && part->encloses(Vec3(x + 0.6, 1, z + 0.6));
+      if (!is_within) continue;
+      ++places;
+      ASSERT_NEAR(distance(tool, {Vec3(x, gouge, z) - lowest, axis}, part), kDepth - gouge, 2e-5) << x << ' ' << z;
+    }
+  EXPECT_GT(places, 300);
+}
+
 /// A rib that is thinner than twice the depth has nothing that is deep, and the wall beside it is free to be finished.
 TEST(InnerSurface, OfAThinRibIsInNobodysWay) {
   const auto part =

@@ -173,6 +173,29 @@ TEST(Mesh, IsConvexWithAsManySidesAsACylinderHas) {
   EXPECT_NE(Mesh(triangles).convex(), nullptr);
 }
 
+TEST(Mesh, ThatIsConvexHasEachFaceAndEdgeOnce) {
+  const Mesh box(scenes::box_triangles(kBrick));
+  EXPECT_EQ(box.convex()->normals.size(), 6U);
+  EXPECT_EQ(box.convex()->edges.size(), 3U) << "of the three directions, none across a face";
+  const Vec3 corner(0, 0, 0);
+  const Vec3 x(4, 0, 0);
+  const Vec3 y(0, 3, 0);
+  const Vec3 z(0, 0, 5);
+  std::vector<Triangle> pyramid = {{{corner, y, x}}, {{corner, x, z}}, {{corner, z, y}}, {{x, y, z}}};
+  for (int first = 0; first < 4; ++first) {
+    std::rotate(pyramid.begin(), pyramid.begin() + 1, pyramid.end());
+    const Mesh mesh(pyramid);
+    EXPECT_EQ(mesh.convex()->normals.size(), 4U);
+    EXPECT_EQ(mesh.convex()->edges.size(), 6U);
+  }
+}
+
+TEST(Mesh, HasAPointOfEachOfItsSurfaces) {
+  std::vector<Triangle> apart;
+  for (int i = 0; i < 5; ++i) apart.push_back({{Vec3(10 * i, 0, 0), Vec3(10 * i + 4, 0, 0), Vec3(10 * i, 3, 0)}});
+  EXPECT_EQ(Mesh(apart).surface_points().size(), 5U);
+}
+
 /// A body within a closed mesh touches no triangle, and overlaps all the same.
 TEST(Mesh, ThatIsClosedIsSolid) {
   const RevolvedBody tool = scenes::body(flat_body(1, 10));

@@ -32,9 +32,10 @@ bool contains_ball(const RevolvedBody& of, const Vec3& center, double radius, Ra
 
 std::vector<RevolvedBody> tools() {
   const std::vector<FormPoint> stepped = {{0, 0}, {0, 8}, {6, 8}, {6, 4}, {12, 4}, {16, 9}, {30, 9}};
+  const std::vector<FormPoint> collar = {{0, 4}, {10, 4}, {11, 8}, {12, 3}, {30, 3}};
   return {body(flat_body(5, 30)),      body(ball_body(5, 30)),        body(bull_body(6, 2, 30)),
           body(bull_body(6, 0.2, 30)), body(cone_body(5, 1, 90, 30)), body(drill_body(5, 118, 30)),
-          body(form_body(stepped))};
+          body(form_body(stepped)),    body(form_body(collar))};
 }
 
 TEST(ReducedBody, OfSimpleToolsIsTheSameToolWithSmallerMeasures) {

@@ -74,6 +74,12 @@ TEST(SolidClearance, IsMinusTheDepthOfAnOverlap) {
   EXPECT_LE(clearance(mesh_of(kCube), shifted(50, 30, 27), mesh_of(kPlate)).upper, 0);
 }
 
+TEST(SolidClearance, OfSmallBoxesIsTheirDepth) {
+  const Cuboid crumb{{-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}};
+  EXPECT_NEAR(clearance(crumb, shifted(0, 0, 0.1), crumb).upper, -0.3, 1e-6);
+  EXPECT_NEAR(clearance(crumb, shifted(0.01, 0.02, -0.3), crumb).upper, -0.1, 1e-6);
+}
+
 TEST(SolidClearance, OfAPlacementThatIsNotFiniteIsUnknown) {
   const Cylinder pin{.at = {}, .height = 10, .radius = 8};
   const auto expect_unknown = [](const Clearance& found) {
@@ -337,6 +343,9 @@ TEST(SolidClearanceProperty, OfAMeshIsThatOfTheSolid) {
                                    clearance(mesh_of(moving), at, mesh_of(obstacle))}) {
       if (solid.lower > 0) {
         ASSERT_NEAR(solid.lower, found.lower, kBoundsAgree);
+        const Vec3 on_body = at.inverse() * found.on_body;
+        ASSERT_LE((moving.nearest(on_body) - on_body).norm(), 1e-6) << "a point of the one that moves";
+        ASSERT_LE((obstacle.nearest(found.on_obstacle) - found.on_obstacle).norm(), 1e-6) << "and one of the other";
       }
       ASSERT_EQ(solid.upper <= 0, found.upper <= 0);
     }
