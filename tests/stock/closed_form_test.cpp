@@ -135,6 +135,39 @@ TEST(ClosedForm, TiltedPlungeAndSlotThroughAPlate) {
   }
 }
 
+/// Straight down, a tilted disc leaves a hole of its shadow: an ellipse, drawn out by its thickness.
+TEST(ClosedForm, TiltedDiscStraightDown) {
+  const Stock stock(box({-50, -50, -18}, {50, 50, 0}), 0.25);
+  const RevolvedBody saw = body(solids::disc_body(6, 2));
+  for (const double degrees : {20.0, 45.0, 70.0}) {
+    const Vec3 axis = tilted(degrees);
+    EXPECT_NEAR(error_of(stock, {line(saw, {0.1, 0.2, 20}, {0.1, 0.2, -40}, axis)},
+                         (pi * 36 * axis.z() + 12 * 2 * axis.x()) * 18),
+                0, 0.003)
+        << degrees;
+  }
+}
+
+/// The ball is in one tile, and its shank goes on through the next ones.
+TEST(ClosedForm, LyingBallCutterThroughManyTiles) {
+  const Stock stock(box({0, -30, -30}, {200, 30, 30}), 0.25);
+  const double length = 150;
+  EXPECT_NEAR(error_of(stock, {line(ball(6, length), {20, 0, 0}, {20, 0, 0}, {1, 0, 0})},
+                       pi * 36 * (length - 6) + 2.0 / 3 * pi * 216),
+              0, 0.003);
+}
+
+TEST(ClosedForm, ArcsOfLessThanAMillimeter) {
+  const Stock stock(box({-2, -2, -5}, {2, 2, 0}), 0.01);
+  const RevolvedBody tool = flat(0.3);
+  for (const double degrees : {90.0, -90.0}) {
+    const Vec3 to(0, degrees > 0 ? 0.8 : -0.8, -1);
+    EXPECT_NEAR(error_of(stock, {arc(tool, {0.8, 0, -1}, to, {0, 0, -1}, degrees)}, pi / 2 * 0.8 * 0.6 + pi * 0.09), 0,
+                0.005)
+        << degrees;
+  }
+}
+
 TEST(ClosedForm, HorizontalBore) {
   const Stock stock(box({-50, -50, -40}, {50, 50, 0}), 0.25);
   const RevolvedBody tool = flat(6, 200);
@@ -192,6 +225,31 @@ TEST(ClosedForm, DepthOfAPassAlongASlope) {
           EXPECT_LT(outcome.inside_depth, depth + 0.02) << degrees << " degrees, X " << travel_x << ", climb " << climb;
           EXPECT_GT(outcome.inside_depth, 0.9 * depth) << degrees << " degrees, X " << travel_x << ", climb " << climb;
         }
+}
+
+/// The same of a ball that cuts with its lower part alone, whatever depth it is asked for.
+TEST(ClosedForm, DepthOfAShallowPassOfABall) {
+  const double depth = 0.8;
+  const RevolvedBody tool = ball(10, 60);
+  const Vec3 axis = tilted(20);
+  const Vec3 middle = Vec3(0, 0, 9) - 10 * axis;  // The lowest point of the ball is 1 mm deep.
+  for (const double limit : {0.4, 100.0}) {
+    Stock stock(box({-60, -40, -40}, {60, 40, 0}), 0.4);
+    const auto pass = [&](double along) {
+      Sweep sweep = line(tool, middle - along * axis - Vec3(20, 0, 0), middle - along * axis + Vec3(20, 0, 0), axis);
+      sweep.side_rim = 1;
+      sweep.depth_limit = limit;
+      return apply(stock, sweep);
+    };
+    const SweepOutcome first = pass(0);
+    EXPECT_LE(first.inside_depth, first.depth) << limit;
+    EXPECT_NEAR(first.depth, 1 * axis.z(), 0.01) << limit;
+    const SweepOutcome second = pass(depth);
+    EXPECT_LE(second.inside_depth, second.depth) << limit;
+    if (limit > 1) continue;
+    EXPECT_LT(second.inside_depth, depth + 0.02);
+    EXPECT_GT(second.inside_depth, 0.9 * depth);
+  }
 }
 
 }  // namespace

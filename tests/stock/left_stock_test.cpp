@@ -26,7 +26,7 @@ Vec3 placed(const LeftStock& left, Vec3 point) {
 TEST(LeftStock, HasEveryDexelHoweverItIsTurned) {
   const Stock old = first_side();
   for (const bool is_turned_over : {false, true})
-    for (const int quarter_turns : {-1, 0, 1, 2, 3, 4}) {
+    for (const int quarter_turns : {-1, 0, 1, 2, 3, 4, 5}) {
       const LeftStock left{.stock = std::make_shared<const Stock>(old),
                            .shift = {12.3, -7.7, 4},
                            .is_turned_over = is_turned_over,

@@ -126,6 +126,31 @@ TEST(Pieces, ThatTouchAtCornersOrEndsAreApart) {
   expect_flooded(stock);
 }
 
+TEST(Pieces, BeginWithTheLargest) {
+  Stock stock(kPlate, 1);
+  const RevolvedBody saw = flat(2, 40);
+  apply(stock, line(saw, {200, -10, -20}, {200, 210, -20}));
+  apply(stock, line(saw, {50, -10, -20}, {50, 210, -20}));
+  const std::vector<StockPiece> pieces = pieces_of(stock);
+  ASSERT_EQ(pieces.size(), 3U);
+  EXPECT_NEAR(pieces[0].volume, 146 * 200 * 18, 1e-3);
+  EXPECT_NEAR(pieces[1].volume, 98 * 200 * 18, 1e-3);
+  EXPECT_NEAR(pieces[2].volume, 48 * 200 * 18, 1e-3);
+}
+
+/// Also of a grid that fills its tile.
+TEST(Pieces, KnowACutAtAnySideOfTheGrid) {
+  const RevolvedBody drill = flat(0.6, 10);
+  for (const double size : {4.0, 128.0})
+    for (const auto& [x, y] : {std::pair(0.5, 2.5), {size - 0.5, 2.5}, {2.5, 0.5}, {2.5, size - 0.5}}) {
+      Stock stock(box({0, 0, 0}, {size, size, 4}), 1);
+      apply(stock, line(drill, {x, y, 3}, {x, y, 3}, {0, 0, 1}, 7));
+      const std::vector<StockPiece> pieces = pieces_of(stock);
+      ASSERT_EQ(pieces.size(), 1U);
+      EXPECT_EQ(last_cut_beside(pieces[0]), std::optional<CutTag>(7)) << x << ' ' << y;
+    }
+}
+
 TEST(Pieces, AreThoseOfAFlood) {
   const SomeSweeps source;
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {

@@ -105,6 +105,22 @@ TEST(StockFile, IsSmall) {
   EXPECT_LT(write_stock(slot).size(), 40000U);
 }
 
+/// Of a cut with a different height in each dexel: 4 bytes for each, and a little for the whole.
+TEST(StockFile, TakesFourBytesForEachHeight) {
+  Stock stock(box({0, 0, -18}, {128, 128, 0}), 1);
+  const RevolvedBody tool = ball(300, 700);
+  apply(stock, line(tool, {41.3, 52.6, -17.5}, {41.3, 52.6, -17.5}));
+  EXPECT_LT(write_stock(stock).size(), kTilesAt + 4 * 128 * 128 + 300 + kSumSize);
+}
+
+TEST(StockFile, HasUniformTilesOfSeveralHeights) {
+  const std::string uniform = write_stock(Stock(box({0, 0, 0}, {512, 1, 10}), 1));
+  std::string tiles;
+  for (const float top : {5.0F, 10.0F, 10.0F, 5.0F}) tiles += std::string("\0", 1) + f32(0) + f32(top);
+  const Stock stock = std::get<Stock>(read_stock(sealed(uniform.substr(0, kTilesAt) + tiles)));
+  EXPECT_EQ(stock.volume(), 128 * (5 + 10 + 10 + 5));
+}
+
 TEST(StockFile, RefusesOtherFiles) {
   EXPECT_EQ(problem_of("").kind, Kind::NotAStock);
   EXPECT_EQ(problem_of("isosto").kind, Kind::NotAStock);

@@ -276,6 +276,56 @@ TEST(Stock, BackwardsIsTheSame) {
   }
 }
 
+TEST(Stock, TurnsBackAsItTurns) {
+  const RevolvedBody tools[] = {flat(6, 60), ball(6, 60), body(solids::cone_body(6, 1, 60, 60))};
+  const Stock stock(kPlate, 0.5);
+  const AxisPlacement from{{100, 100, -6}, tilted(-20)};
+  const AxisPlacement to{{104, 103, -8}, tilted(25)};
+  for (const RevolvedBody& tool : tools)
+    EXPECT_NEAR(removed(stock, {turn(tool, from, to)}) / removed(stock, {turn(tool, to, from)}), 1, 1e-6);
+}
+
+/// Where on its axis a body has its origin is nothing to the material.
+TEST(Stock, DoesNotDependOnWhereABodyHasItsOrigin) {
+  for (const RevolvedBody& tool : {flat(6, 60), ball(6, 60), body(solids::drill_body(6, 118, 60)),
+                                   body(solids::bull_body(6, 2, 60)), body(solids::disc_body(6, 3))})
+    for (const double up : {-70.0, -7.0, 5.0}) {
+      std::vector<solids::BodyPiece> pieces;
+      for (solids::BodyPiece piece : tool.pieces()) {
+        piece.core.bottom += up;
+        piece.core.top += up;
+        pieces.push_back(piece);
+      }
+      const RevolvedBody shifted(pieces);
+      for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(0, 0, -1), tilted(30)})
+        for (const Vec3& travel : {Vec3(0, 0, 0), Vec3(30, 7, 0), Vec3(0, 0, -6), Vec3(30, 7, -6)}) {
+          const Stock stock(kPlate, 1);
+          const Vec3 from(100, 100, axis.z() < 0 ? 52 : -4);
+          const double expected = removed(stock, {line(tool, from, from + travel, axis)});
+          const Vec3 origin = from - up * axis;
+          EXPECT_NEAR(removed(stock, {line(shifted, origin, origin + travel, axis)}), expected, 1e-4 * expected + 1e-3)
+              << up << ", travel " << travel.transpose() << ", axis " << axis.transpose();
+        }
+    }
+}
+
+/// A height that no float has is rounded so that too little is cut, by a last digit, rather than too much.
+TEST(Stock, RoundsHeightsTowardsTheMaterial) {
+  const RevolvedBody saw = body(solids::disc_body(6, 3));
+  for (const double low : {-9.1, -9.2, -9.3, -9.7}) {
+    Stock stock(box({0, 0, -18}, {60, 40, 0}), 1);
+    apply(stock, line(saw, {20, 20, low}, {40, 20, low + 4}));
+    const std::vector<HeightInterval> first = stock.intervals_at(15.5, 20.5);
+    ASSERT_EQ(first.size(), 2U);
+    EXPECT_GE(first[0].top, low);
+    EXPECT_NEAR(first[0].top, low, 2e-6);
+    const std::vector<HeightInterval> last = stock.intervals_at(44.5, 20.5);
+    ASSERT_EQ(last.size(), 2U);
+    EXPECT_LE(last[1].bottom, low + 4 + 3);
+    EXPECT_NEAR(last[1].bottom, low + 4 + 3, 2e-6);
+  }
+}
+
 TEST(Stock, SplitMovesRemoveTheSame) {
   const RevolvedBody tools[] = {flat(6), ball(6), body(solids::bull_body(6, 2, 60)),
                                 body(solids::cone_body(6, 1, 60, 60))};

@@ -26,7 +26,7 @@ class RandomSweeps {
     if (one_in(2) || (height == 0 && radius == 0)) piece.rounding = between(0.1, 6);
     const Vec3 axis = one_in(5) ? Vec3(0, 0, one_in(2) ? 1 : -1) : direction();
     const Vec3 travel = one_in(5) ? Vec3(Vec3::Zero()) : Vec3(std::pow(10, between(-2, 1.5)) * direction());
-    const Vec3 place(between(-2000, 2000), between(-2000, 2000), between(-200, 200));
+    const Vec3 place(between(-2000, 2000), between(-2000, 2000), (one_in(5) ? 100 : 1) * between(-200, 200));
     return {piece, {place, axis}, travel};
   }
   double between(double low, double high) { return std::uniform_real_distribution<>(low, high)(random_); }
