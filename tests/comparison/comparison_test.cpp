@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -57,10 +59,10 @@ std::string faces(const std::string& zero) {
 }
 
 /// A square that is cut in passes of these depths, with a retract after each: its lines are 7, from line 3 on.
-std::string passes(const std::vector<double>& depths) {
+std::string passes(const std::vector<double>& depths, const std::string& retract = "G00") {
   std::string program = "M06 T101001\nS12000 M03\n";
   for (const double z : depths)
-    program += fmt::format("G00 X0 Y0 Z2\nG01 Z{} F500\nX100 Y0 F2000\nX100 Y50\nX0 Y50\nX0 Y0\nG00 Z2\n", -z);
+    program += fmt::format("G00 X0 Y0 Z2\nG01 Z{} F500\nX100 Y0 F2000\nX100 Y50\nX0 Y50\nX0 Y0\n{} Z2\n", -z, retract);
   return program + "G00 Z50\nM05\nM02\n";
 }
 
@@ -93,6 +95,15 @@ std::string nested(const std::string& tools) {
   std::string program;
   for (const char tool : tools)
     program += fmt::format("M06 T10100{}\nS9000 M03\nG00 X50 Y5\nZ20\nG01 Z-{} F500\nX9{}\nX50 Y5\nG00 Z20\nM05\n",
+                           tool, tool, tool);
+  return program + "M02\n";
+}
+
+/// Operations at places of their own that begin and end at one height, each by its tool: 8 lines.
+std::string at_height(const std::string& tools) {
+  std::string program;
+  for (const char tool : tools)
+    program += fmt::format("M06 T10100{}\nS9000 M03\nG00 Z20\nX{}00 Y5\nG01 Z-{} F500\nX{}50\nG00 Z20\nM05\n", tool,
                            tool, tool, tool);
   return program + "M02\n";
 }
@@ -140,8 +151,13 @@ const ComparisonCase kCases[] = {
     // The retract between two passes is where it was.
     {"PassesByTheSame", passes({1, 2, 3}), passes({1.1, 2.1, 3.1}),
      "moved 4-8|4-8: moved by Z-0.1\nmoved 11-15|11-15: moved by Z-0.1\nmoved 18-22|18-22: moved by Z-0.1\n"},
+    {"PassesWithRetractsAtAFeed", passes({1, 2, 3}, "G01"), passes({1.1, 2.1, 3.1}, "G01"),
+     "moved 4-8|4-8: moved by Z-0.1\nmoved 11-15|11-15: moved by Z-0.1\nmoved 18-22|18-22: moved by Z-0.1\n"},
     {"PassesMoreAndMore", passes({1, 2, 3}), passes({1.02, 2.04, 3.06}),
      "moved 4-8|4-8: moved by Z-0.02\nmoved 11-15|11-15: moved by Z-0.04\nmoved 18-22|18-22: moved by Z-0.06\n"},
+    {"MotionsMovedOneByOneBeforeAMovedRow", kPlunged + "X20 Y40\nX30 Y20\nX40 Y60\nX50 Y10\nX70\nY90\nX5\nM02\n",
+     kPlunged + "X21 Y40\nX31.5 Y20.5\nX41.4 Y60\nX51.4 Y10\nX71.4\nY90\nX6.4\nM02\n",
+     "moved 5-11|5-11: moved by up to 1.581 mm\n"},
     {"IncrementMovesWhatFollows", kRow, replaced(kRow, "G00 Z3\nX20\n", "G00 Z3\nX21\n"),
      "moved 6-11|6-11: moved by X1\n"},
     {"Zero", "M06 T101001\nG92 X5 Y0 Z0\nG00 X10\nY10\nX20\nY50\nM02\n",
@@ -278,6 +294,10 @@ const ComparisonCase kCases[] = {
      kPlunged + "Y100\nG00 Y150\nG01 Z-5\nY200\nG00 Z50\nM02\n",
      "removed 6-7|6: removed: 2 motions; the next one takes another path, up to 55 mm away\n"
      "feed 8|6: G00 instead of F2000\n"},
+    {"RetractLostAndAnotherOneGained", kPlunged + "X50\nG00 Z50\nG01 Y10\nG00 Z5\nG01 Y70\nX10\nZ40\nX70 Y90\nM02\n",
+     kPlunged + "X50\nY10\nG00 Z5\nG01 Y70\nG00 Z55\nG01 X10\nZ40\nX70 Y90\nM02\n",
+     "removed 6|-: removed: 1 motion\nmoved 7|6: moved by Z-55\nadded -|9: added: 1 motion\n"
+     "moved 10|10: moved by Z50\n"},
     {"RetractGained", kPlunged + "Y100\nY150\nY200\nM02\n", kPlunged + "Y100\nG00 Z50\nY150\nG01 Z-5\nY200\nM02\n",
      "added 6|6-7: added: 2 motions; the next one takes another path, up to 55 mm away\n"},
     // The next motion goes where the old program does.
@@ -404,6 +424,8 @@ const ComparisonCase kCases[] = {
     // What is no motion.
     {"Feed", kSquare, square("F2000", "F3000"), "feed 4-8|4-8: F3000 instead of F2000\n"},
     {"FeedOnTheWay", kSquare, square("X100\n", "X40\nX100 F3000\nF2000\n"), "feed 5|6: F3000 instead of F2000\n"},
+    {"FeedInInverseTime", kHead + "G93 G01 X110 F10\nM02\n", kHead + "G93 G01 X110 F20\nM02\n",
+     "feed 4|4: F2000 instead of F1000\n"},
     {"RapidInsteadOfFeed", kHead + "G01 X50 F500\nM02\n", kHead + "G00 X50\nM02\n", "feed 4|4: G00 instead of F500\n"},
     {"Speed", kSquare, square("S12000", "S9000"), "speed 2|2: S9000 M03 instead of S12000 M03\n"},
     {"SpindleStop", kSquare, square("G00 Z40\nM02", "G00 Z40\nM05\nM02"), "speed -|10: added: M05\n"},
@@ -429,6 +451,9 @@ const ComparisonCase kCases[] = {
      replaced(kPlunged, "S12000", "S11000") + "X50 Y30\nX60 Y90\nM06 T101001\nX70\nY10\nX90\nG00 Z40\nM02\n",
      "speed 2|2: S11000 M03 instead of S12000 M03\ntool -|7: added: T101001\n"
      "speed 7-9|8-10: the spindle stands still, was S12000 M03\n"},
+    {"ToolChangeThatStopsTheSpindleBesideALostStop", kPlunged + "X50\nM05\nS9000 M03\nY30\nX70\nM02\n",
+     kPlunged + "X50\nS9000 M03\nM06 T101001\nY30\nX70\nM02\n",
+     "speed 6|-: removed: M05\ntool -|7: added: T101001\nspeed 8-9|8-9: the spindle stands still, was S9000 M03\n"},
     {"ToolChangeThatNoLongerStopsTheSpindle", square("X100\n", "M06 T101001\nX100\n"), kSquare,
      "tool 5|-: removed: T101001\nspeed 6-9|5-8: the spindle turns, S12000 M03, stood still before\n"},
     // What stops a spindle that has turned in both is no idle stop, whatever S waits before it.
@@ -446,6 +471,8 @@ const ComparisonCase kCases[] = {
      "function 4|4: M100 P1=3 P2=2 instead of M100 P1=2 P2=3\n"},
     {"FunctionEarlierOnALine", kPlunged + "X60\nM08\nY50\nM02\n", kPlunged + "X40\nM08\nX60\nY50\nM02\n",
      "function 6|6: M08 comes 20 mm earlier\n"},
+    {"FunctionLostBesideAWayOutAndBack", kPlunged + "Y100\nM08\nY150\nX9\nM02\n",
+     kPlunged + "Y100\nX50\nX10\nY150\nX9\nM02\n", "function 6|-: removed: M08\nadded -|6-7: added: 2 motions\n"},
     {"DwellLaterOnAContour", kPlunged + "X60\nG04 P1\nY50\nX99\nM02\n", kPlunged + "X60\nY50\nG04 P1\nX99\nM02\n",
      "dwell 6|7: dwell of 1 s comes 30 mm later\n"},
     {"DwellAsTwo", kHead + "G04 P1\nX50\nM02\n", kHead + "G04 P0.5\nG04 P0.5\nX50\nM02\n", ""},
@@ -473,6 +500,13 @@ const ComparisonCase kCases[] = {
     {"Path", kHead + "IF VGPL = 1 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nX110\nX120\nM02\n",
      kHead + "IF VGPL = 0 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nX110\nX120\nM02\n",
      "path 5-6|4: another path: the IF of line 4 jumps in the new program only (0 motions instead of 2)\n"},
+    {"PathAfterALineInParts", kHead + "X40\nIF VGPL = 1 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nX110\nX120\nM02\n",
+     kHead + "X25\nX40\nIF VGPL = 0 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nX110\nX120\nM02\n",
+     "path 6-7|6: another path: the IF of line 6 jumps in the new program only (0 motions instead of 2)\n"},
+    {"PathBeforeAnotherFeed", kPlunged + "IF VGPL = 1 GOTO N5\nX50\nX70\nN5 X90 Y90\nX100\nX110\nX120\nM02\n",
+     kPlunged + "IF VGPL = 0 GOTO N5\nX50\nX70\nN5 X90 Y90 F3000\nX100 F2000\nX110\nX120\nM02\n",
+     "path 6-7|5: another path: the IF of line 5 jumps in the new program only (0 motions instead of 2)\n"
+     "feed 8|8: F3000 instead of F2000\n"},
     {"JumpBesideADwell", kPlunged + "G04 P1\nX50\nM02\n",
      kPlunged + "G04 P2\nIF VGPL = 0 GOTO N9\nG00 X99\nN9\nX50\nM02\n", "dwell 5|5: dwell of 2 s instead of 1 s\n"},
     {"JumpBesideATool", "M06 T101001\nS9000 M03\nM02\n",
@@ -515,6 +549,10 @@ const ComparisonCase kTurnsAndOrders[] = {
      "removed 7-8|-: removed: 2 motions\n"},
     {"TurnOfALineLost", kHead + "X60 C90\nX80\nX90\nM02\n", kHead + "X60\nX80\nX90\nM02\n",
      "shape 4-6|4-6: B or C turned by up to 90 degrees\n"},
+    // At X60, 0.4 of the way, the line that turns from B10 to B34 has B19.6.
+    {"TurnOfAPlaceOnALineLost", kHead + "G49\nG01 X20 B10 F500\nX60 B13\nX120 B30\nY50\nM02\n",
+     kHead + "G49\nG01 X20 B10 F500\nX120 B34\nY50 B30\nM02\n",
+     "shape 6-7|6: another path, 1 motion instead of 2, B or C turned by up to 6.6 degrees\n"},
     // How deep a hole is says nothing about the way beside it.
     {"DeepHoleGained", kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX60\nG01 Z0\nG00 Z40\nM02\n",
      kHead + "X20 Y0\nG01 Z0 F500\nG00 Z40\nX40 Y30\nG01 Z-100\nG00 Z40\nX60 Y0\nG01 Z0\nG00 Z40\nM02\n",
@@ -531,6 +569,9 @@ const ComparisonCase kTurnsAndOrders[] = {
      "reordered 10-18|1-9: order changed: now the first one, was after T101001\n"},
     {"FirstOperationThatBeginsInOnePlaceIsLast", nested("123"), nested("231"),
      "reordered 1-9|19-27: order changed: now after T101003, was the first one\n"},
+    // Each begins with a rapid to its height, which goes nowhere after another operation.
+    {"OperationsThatBeginAtOneHeightSwapped", at_height("123"), at_height("213"),
+     "reordered 9-16|1-8: order changed: now the first one, was after T101001\n"},
     {"ParameterInItsFifthDecimal", kHead + "M110 P1=4.5\nM02\n", kHead + "M110 P1=4.50001\nM02\n",
      "function 4|4: M110 P1=4.50001 instead of M110 P1=4.5\n"},
 };
@@ -553,6 +594,15 @@ TEST(Comparison, TimesMotionsThatAreAddedWithinALine) {
   const std::vector<BehaviorChange> changes = compare(old_run, new_run, {});
   ASSERT_EQ(shown(changes), "added -|5-7: added: 3 motions\n");
   EXPECT_NEAR(changes.front().seconds, new_run.seconds - old_run.seconds, 0.1);
+}
+
+TEST(Comparison, WritesSecondsAsTheyAre) {
+  const RecordedRun old_run = recorded(kHead + "G04 P1\nM02\n");
+  const RecordedRun new_run = recorded(kHead + "G04 P11.5\nM02\n");
+  const std::vector<BehaviorChange> changes = compare(old_run, new_run, {});
+  const nlohmann::ordered_json json = changes_json({old_run, new_run, changes}, dialect::Language::English);
+  ASSERT_EQ(json.size(), 1U);
+  EXPECT_EQ(json[0]["seconds"], 10.5);
 }
 
 /// With a large tolerance, ways that differ by less than it have no order.
@@ -659,6 +709,18 @@ TEST(Comparison, ComparesTheWholePathOfRapidsThatTurn) {
   EXPECT_GT(changes[0].distance.value_or(0), 1);
 }
 
+/// The same with a tool that is 100 mm long: the tip is 280 mm below the pivot.
+TEST(Comparison, ComparesTheWholePathOfRapidsThatTurnATool) {
+  timing::TimedMachine machine = machine_of_tests();
+  machine.tool_lengths = {{execution::tool_code(101001), 100}};
+  const double pi = std::acos(-1.0);
+  const double x = 10 + 280 * (std::sin(pi / 3) / 2 - std::sin(pi / 6));
+  const double z = 40 + 280 * ((1 + std::cos(pi / 3)) / 2 - std::cos(pi / 6));
+  const std::string whole = kHead + "G49\nG00 B60\nM02\n";
+  const std::string parts = kHead + fmt::format("G49\nG00 X{:.5f} Z{:.5f} B30\nX10 Z40 B60\nM02\n", x, z);
+  EXPECT_EQ(shown(compare(record(whole, {}, machine), record(parts, {}, machine), {})), "") << parts;
+}
+
 /// Where each joint goes at its own speed, a place on the line between the ends is not on the way.
 TEST(Comparison, ComparesTheWholePathOfIndependentRapids) {
   timing::TimedMachine machine = machine_of_tests();
@@ -733,6 +795,15 @@ TEST(Comparison, NamesATurnedFrameOnce) {
   EXPECT_TRUE(std::any_of(around.begin(), around.end(), [](const BehaviorChange& each) {
     return each.kind == ChangeKind::Shape;
   })) << shown(around);
+  // So is a full circle around another center.
+  const auto circle = [&](const std::string& angle, const std::string& center) {
+    return replaced(in_frame(angle), "G03 X50 Y30 I50 J15", "G03 X50 Y0 I50 " + center);
+  };
+  EXPECT_EQ(changes_between(circle("30", "J15"), circle("35", "J15")).size(), 1U);
+  const std::vector<BehaviorChange> elsewhere = changes_between(circle("30", "J15"), circle("35", "J10"));
+  EXPECT_TRUE(std::any_of(elsewhere.begin(), elsewhere.end(), [](const BehaviorChange& each) {
+    return each.kind == ChangeKind::Shape;
+  })) << shown(elsewhere);
   // A motion that is moved within the frame as well is one of its own.
   std::string other = in_frame("35");
   other.replace(other.find("X50\n"), 4, "X53\n");
@@ -861,6 +932,38 @@ TEST(ActionPath, DistancesTakeFromWhatIsLeft) {
   EXPECT_EQ(left, 0U);
 }
 
+/// Each end of each motion from each motion of the other path, in both ways.
+TEST(ActionPath, TurnsTakeFromWhatIsLeft) {
+  const RecordedRun one = recorded("M06 T101001\nG00 X10\nX20\nM02\n");
+  const RecordedRun other = recorded("M06 T101001\nG00 X10\nX15\nX20\nM02\n");
+  const auto motions = [](const RecordedRun& run) { return std::span(run.actions).subspan(1, run.actions.size() - 2); };
+  constexpr std::size_t kAll = 2 * 2 * 3 * 2;
+  std::size_t left = kAll;
+  EXPECT_EQ(turn_between(motions(one), motions(other), geometry::Vec3::Zero(), &left), std::optional(0.0));
+  EXPECT_EQ(left, 0U);
+  left = kAll - 1;
+  EXPECT_EQ(turn_between(motions(one), motions(other), geometry::Vec3::Zero(), &left), std::nullopt);
+}
+
+/// Both runs are passed through from their starts to their ends, whichever is the old one.
+TEST(AlignedSteps, AreMirroredIfTheRunsAreSwapped) {
+  const RecordedRun one = recorded(kSquare);
+  const RecordedRun other = recorded(square("X100\n", "X40\nM08\nX101\nY50\n"));
+  const std::vector<AlignedStep> there = aligned_steps(one, other, 0.001);
+  const std::vector<AlignedStep> back = aligned_steps(other, one, 0.001);
+  ASSERT_EQ(there.size(), back.size());
+  AlignedStep last;
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    EXPECT_EQ(there[i].old_begin, last.old_end);
+    EXPECT_EQ(there[i].new_begin, last.new_end);
+    last = there[i];
+    EXPECT_EQ(std::tie(back[i].old_begin, back[i].old_end), std::tie(last.new_begin, last.new_end));
+    EXPECT_EQ(std::tie(back[i].new_begin, back[i].new_end), std::tie(last.old_begin, last.old_end));
+  }
+  EXPECT_EQ(last.old_end, one.actions.size());
+  EXPECT_EQ(last.new_end, other.actions.size());
+}
+
 TEST(Comparison, ToleranceDecides) {
   EXPECT_EQ(shown(changes_between(kSquare, square("X100\n", "X100.05\n"), {.tolerance = 0.06})), "");
   EXPECT_EQ(shown(changes_between(kSquare, square("X100\n", "X100.05\n"), {.tolerance = 0.04})),
@@ -893,6 +996,11 @@ TEST(Comparison, NamesTheSideOfCompensationWhereTheRadiusIsUnknown) {
   EXPECT_EQ(changes("G41", ""), "function 5-7|5-7: removed: G41\n");
   EXPECT_EQ(changes("G41", "G41 ;the same"), "");
   EXPECT_EQ(changes("G41\nG01 Z-5 F500", "G01 Z-5 F500\nG41"), "") << "the plunge has no side";
+  const auto up_to_the_end = [](std::string_view side) {
+    return replaced(contour("T102001", side), "G40\nG00 X0 Y0\n", "G40\n");
+  };
+  EXPECT_EQ(shown(changes_between(up_to_the_end("G41"), up_to_the_end("G42"))),
+            "function 5-7|5-7: G42 instead of G41\n");
   const std::string old_program = contour("T102001", "G41");
   std::string split = contour("T102001", "G41");
   split.replace(split.find("Y50\n"), 4, "Y30\nY50\n");
@@ -941,6 +1049,24 @@ TEST(Comparison, NamesWaysOfLinesThatAreJoinedFromParts) {
   EXPECT_EQ(shown(changes_between(old_program, new_program, {.tolerance = 0.1})),
             "shape 5-6|5-6: another path, up to 0.16 mm away\n");
   EXPECT_EQ(shown(changes_between(old_program, new_program, {.tolerance = 0.2})), "");
+}
+
+/// Places off a line by less than the tolerance, and a feed that differs by less than 0.01 %.
+TEST(Comparison, NamesWhatStandsBesideALineOfOtherPartsAlone) {
+  const std::string last = "X60 Y20\nY40\nX30\nG00 Z50\nM02\n";
+  const std::string parts = "X13 Y20.04\nX16 Y20.03\nX19 Y20\nX22 Y20.03\nX25 Y20\nX28 Y20.04\n";
+  const std::string other_parts = "X14 Y20.03\nX17 Y20\nX20\nX23\nX26\nX29\n";
+  EXPECT_EQ(shown(changes_between(kPlunged + parts + last,
+                                  replaced(kPlunged, "F2000", "F2000.1") + other_parts + "G04 P1\n" + last,
+                                  {.tolerance = 0.05})),
+            "dwell -|11: dwell of 1 s added\n");
+  const std::string fine = "X11 Y20.02\nX12 Y20\nX13 Y20.04\nX14 Y20\nX15 Y20.02\nX16 Y20.03\nX17 Y20\nX18\n";
+  const std::string other_fine = "X11 Y20.04\nX12\nX13 Y20.02\nX14 Y20.04\nX15\nX16 Y20.02\nX17 Y20\nX18\n";
+  EXPECT_EQ(shown(changes_between(
+                kPlunged + fine + "X19 Y20.02\nX20\nX21 Y20\nX22\n" + last,
+                kPlunged + other_fine + "M08\nX19\nX20 Y20.04\nX21 Y20.02\nX22 Y20\nX61\nY40\nX31\n" + "G00 Z50\nM02\n",
+                {.tolerance = 0.05})),
+            "function -|13: added: M08\nmoved 17-20|18-21: moved by X1\n");
 }
 
 /// With a tolerance of two lines of the path, neighbors of what is missing go along it for a while.
