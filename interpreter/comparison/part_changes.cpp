@@ -38,9 +38,21 @@ class PartNamer {
     const bool is_same_path = motions->is_same_path() && motions->steps.size() > (part.is_closed ? 1U : 0U);
     if (!is_same_path && (name_way_back(part) || name_order(part))) return;
     comparison::name_motions(changes_, *motions, part);
-    std::size_t place = part.actions.a_begin;
+    PlaceInBoth next{part.actions.a_begin, part.actions.b_begin};
     for (const EffectStep& step : effect_steps(runs_, part.actions, *motions)) {
-      place = step.a ? *step.a : std::max(place, place_in_a(*motions, part.actions, *step.b));
+      PlaceInBoth place = next;
+      if (step.a) {
+        place.a = *step.a;
+        next.a = place.a + step.a_count;
+      } else {
+        next.a = place.a = std::max(next.a, place_in_a(*motions, part.actions, *step.b));
+      }
+      if (step.b) {
+        place.b = *step.b;
+        next.b = place.b + step.b_count;
+      } else {
+        next.b = place.b = std::max(next.b, place_in_b(*motions, part.actions, *step.a));
+      }
       name_effect(step, place);
     }
   }
@@ -352,14 +364,27 @@ class PartNamer {
     return true;
   }
 
-  /// The action of a beside an action of b between motions.
+  /// The action of a that comes next where b has an action between motions.
   static std::size_t place_in_a(const MotionBlock& block, const ActionRanges& part, std::size_t action) {
-    const auto motion = std::lower_bound(block.b_actions.begin(), block.b_actions.end(), action);
-    const auto before = static_cast<std::size_t>(motion - block.b_actions.begin());
+    const std::size_t before = motions_before(block.b_actions, action);
     const auto next = std::partition_point(block.steps.begin(), block.steps.end(),
                                            [&](const MotionStep& step) { return step.motions.b_begin < before; });
-    const std::size_t a_motions = next == block.steps.begin() ? 0 : (next - 1)->motions.a_end;
-    return a_motions == 0 ? part.a_begin : block.a_actions[a_motions - 1] + 1;
+    const std::size_t motions = next == block.steps.begin() ? 0 : (next - 1)->motions.a_end;
+    return motions == 0 ? part.a_begin : block.a_actions[motions - 1] + 1;
+  }
+
+  /// The action of b that comes next where a has an action between motions.
+  static std::size_t place_in_b(const MotionBlock& block, const ActionRanges& part, std::size_t action) {
+    const std::size_t before = motions_before(block.a_actions, action);
+    const auto next = std::partition_point(block.steps.begin(), block.steps.end(),
+                                           [&](const MotionStep& step) { return step.motions.a_begin < before; });
+    const std::size_t motions = next == block.steps.begin() ? 0 : (next - 1)->motions.b_end;
+    return motions == 0 ? part.b_begin : block.b_actions[motions - 1] + 1;
+  }
+
+  /// The number of a block's motions, given by their actions, before an action.
+  static std::size_t motions_before(const std::vector<std::size_t>& motions, std::size_t action) {
+    return static_cast<std::size_t>(std::lower_bound(motions.begin(), motions.end(), action) - motions.begin());
   }
 
   static std::string value_together(const RecordedRun& run, std::size_t begin, std::size_t count) {
@@ -368,11 +393,9 @@ class PartNamer {
     return value_of(run, action);
   }
 
-  /// `place` is that in a.
-  void name_effect(const EffectStep& step, std::size_t place) {
+  void name_effect(const EffectStep& step, const PlaceInBoth& place) {
     if (step.is_same && step.later == 0) return;
-    const std::size_t i = place;
-    const std::size_t k = step.b.value_or(0);
+    const auto [i, k] = place;
     const std::size_t a_count = step.a ? step.a_count : 0;
     const std::size_t b_count = step.b ? step.b_count : 0;
     BehaviorChange& change = changes_.add(kind_of((step.a ? a(i) : b(k)).kind), {i, i + a_count, k, k + b_count});

@@ -1172,6 +1172,8 @@ TEST(Comparison, NamesWhereEachProgramComesToAChange) {
   EXPECT_EQ(starts(operations("123"), "\n" + operations("13")), "removed 10|11\n");
   EXPECT_EQ(starts("\n" + operations("13"), operations("123")), "added 11|10\n");
   EXPECT_EQ(starts(kHead + "M02\n", kHead), "end 4|3\n") << "the last line without M02";
+  EXPECT_EQ(starts(kPlunged + "Y100\nM08\nY150\nX9\nM02\n", kPlunged + "Y100\nX50\nX10\nY150\nX9\nM02\n"),
+            "function 6|6\nadded 7|6\n");
 }
 
 }  // namespace
