@@ -40,20 +40,13 @@ class PartNamer {
     comparison::name_motions(changes_, *motions, part);
     PlaceInBoth next{part.actions.a_begin, part.actions.b_begin};
     for (const EffectStep& step : effect_steps(runs_, part.actions, *motions)) {
-      PlaceInBoth place = next;
-      if (step.a) {
-        place.a = *step.a;
-        next.a = place.a + step.a_count;
-      } else {
-        next.a = place.a = std::max(next.a, place_in_a(*motions, part.actions, *step.b));
-      }
-      if (step.b) {
-        place.b = *step.b;
-        next.b = place.b + step.b_count;
-      } else {
-        next.b = place.b = std::max(next.b, place_in_b(*motions, part.actions, *step.a));
-      }
-      name_effect(step, place);
+      const std::size_t i =
+          step.a ? *step.a : std::max(next.a, next_action(*motions, part.actions, kOfA, kOfB, *step.b));
+      const std::size_t k =
+          step.b ? *step.b : std::max(next.b, next_action(*motions, part.actions, kOfB, kOfA, *step.a));
+      const ActionRanges at{i, i + (step.a ? step.a_count : 0), k, k + (step.b ? step.b_count : 0)};
+      name_effect(step, at);
+      next = {at.a_end, at.b_end};
     }
   }
 
@@ -364,27 +357,25 @@ class PartNamer {
     return true;
   }
 
-  /// The action of a that comes next where b has an action between motions.
-  static std::size_t place_in_a(const MotionBlock& block, const ActionRanges& part, std::size_t action) {
-    const std::size_t before = motions_before(block.b_actions, action);
-    const auto next = std::partition_point(block.steps.begin(), block.steps.end(),
-                                           [&](const MotionStep& step) { return step.motions.b_begin < before; });
-    const std::size_t motions = next == block.steps.begin() ? 0 : (next - 1)->motions.a_end;
-    return motions == 0 ? part.a_begin : block.a_actions[motions - 1] + 1;
-  }
+  /// What belongs to one of the two runs.
+  struct RunSide {
+    std::vector<std::size_t> MotionBlock::*actions;
+    std::size_t ActionRanges::*begin;
+    std::size_t ActionRanges::*end;
+  };
+  static constexpr RunSide kOfA{&MotionBlock::a_actions, &ActionRanges::a_begin, &ActionRanges::a_end};
+  static constexpr RunSide kOfB{&MotionBlock::b_actions, &ActionRanges::b_begin, &ActionRanges::b_end};
 
-  /// The action of b that comes next where a has an action between motions.
-  static std::size_t place_in_b(const MotionBlock& block, const ActionRanges& part, std::size_t action) {
-    const std::size_t before = motions_before(block.a_actions, action);
+  /// The action that one run does next where the other has an action between motions.
+  static std::size_t next_action(const MotionBlock& block, const ActionRanges& part, const RunSide& one,
+                                 const RunSide& other, std::size_t action) {
+    const std::vector<std::size_t>& others = block.*other.actions;
+    const auto motion = std::lower_bound(others.begin(), others.end(), action);
+    const auto before = static_cast<std::size_t>(motion - others.begin());
     const auto next = std::partition_point(block.steps.begin(), block.steps.end(),
-                                           [&](const MotionStep& step) { return step.motions.a_begin < before; });
-    const std::size_t motions = next == block.steps.begin() ? 0 : (next - 1)->motions.b_end;
-    return motions == 0 ? part.b_begin : block.b_actions[motions - 1] + 1;
-  }
-
-  /// The number of a block's motions, given by their actions, before an action.
-  static std::size_t motions_before(const std::vector<std::size_t>& motions, std::size_t action) {
-    return static_cast<std::size_t>(std::lower_bound(motions.begin(), motions.end(), action) - motions.begin());
+                                           [&](const MotionStep& step) { return step.motions.*other.begin < before; });
+    const std::size_t motions = next == block.steps.begin() ? 0 : (next - 1)->motions.*one.end;
+    return motions == 0 ? part.*one.begin : (block.*one.actions)[motions - 1] + 1;
   }
 
   static std::string value_together(const RecordedRun& run, std::size_t begin, std::size_t count) {
@@ -393,14 +384,11 @@ class PartNamer {
     return value_of(run, action);
   }
 
-  void name_effect(const EffectStep& step, const PlaceInBoth& place) {
+  void name_effect(const EffectStep& step, const ActionRanges& at) {
     if (step.is_same && step.later == 0) return;
-    const auto [i, k] = place;
-    const std::size_t a_count = step.a ? step.a_count : 0;
-    const std::size_t b_count = step.b ? step.b_count : 0;
-    BehaviorChange& change = changes_.add(kind_of((step.a ? a(i) : b(k)).kind), {i, i + a_count, k, k + b_count});
-    if (step.a) change.old_value = value_together(runs_.a, i, a_count);
-    if (step.b) change.new_value = value_together(runs_.b, k, b_count);
+    BehaviorChange& change = changes_.add(kind_of((step.a ? a(at.a_begin) : b(at.b_begin)).kind), at);
+    if (step.a) change.old_value = value_together(runs_.a, at.a_begin, step.a_count);
+    if (step.b) change.new_value = value_together(runs_.b, at.b_begin, step.b_count);
     if (!step.is_same) return;
     change.later = step.later;
     change.distance = std::abs(step.later);
