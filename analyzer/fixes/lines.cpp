@@ -139,9 +139,10 @@ Draft g01_before_coordinates(const FixRequest& request) {
   return {{inserted(request, request.finding.span.begin, "G01 ")}};
 }
 
+/// Whether a line has a T without its M06, and otherwise a speed or feed at most.
 static bool has_tool_alone(const LineTree& line) {
-  return line.instructions.size() == 1 && line.feed < 0 && line.spindle < 0 &&
-         line.instructions.front().kind == InstructionKind::StrayTool && line.findings.empty();
+  return line.instructions.size() == 1 && line.instructions.front().kind == InstructionKind::StrayTool &&
+         line.findings.empty();
 }
 
 /// M06 on one line, T101001 alone on the next: joins them.
