@@ -53,7 +53,8 @@ void PositionShift::apply(Frontier& frontier) const {
   });
 }
 
-/// The shift from one position to another; nothing if it would not give exactly that position.
+/// The shift from one position to another, which gives exactly that position; nothing where they are not whole steps,
+/// or too far apart.
 static std::optional<PositionShift> shift_between(const Pose& from, const Pose& to) {
   PositionShift shift;
   for (int axis = 0; axis < kAxisCount; ++axis) {
@@ -62,7 +63,7 @@ static std::optional<PositionShift> shift_between(const Pose& from, const Pose& 
     if (before == after) continue;
     if (!geometry::is_on_step(before) || !geometry::is_on_step(after)) return std::nullopt;
     const double distance = geometry::advanced(after, -before);
-    if (std::abs(distance) > kFarthestShift || geometry::advanced(before, distance) != after) return std::nullopt;
+    if (std::abs(distance) > kFarthestShift) return std::nullopt;
     coordinate(shift.by, axis) = distance;
     shift.axes |= execution::axis_bit(static_cast<Axis>(axis));
   }

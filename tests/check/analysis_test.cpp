@@ -177,6 +177,13 @@ std::string incremental_zigzag(int count) {
   return text + "G90 X5 Y5\nM02\n";
 }
 
+void expect_frontiers_of_fresh_check(const Analysis& analysis, const Document& document) {
+  const Analysis fresh(document, kSetup);
+  for (std::size_t line = 0; line < document.line_count(); line += 97)
+    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << line;
+  EXPECT_EQ(analysis.frontier_before(document.line_count()), fresh.frontier_before(document.line_count()));
+}
+
 TEST(Analysis, AShiftPassesOverIncrementalMoves) {
   Document document(incremental_zigzag(20'000));
   Analysis analysis(document, kSetup);
@@ -184,10 +191,7 @@ TEST(Analysis, AShiftPassesOverIncrementalMoves) {
   analysis.update();
   EXPECT_LE(analysis.lines_checked(), 1'000u);
   EXPECT_TRUE(analysis.report().findings.empty());
-  const Analysis fresh(document, kSetup);
-  for (std::size_t line = 0; line < document.line_count(); line += 97)
-    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << line;
-  EXPECT_EQ(analysis.frontier_before(document.line_count()), fresh.frontier_before(document.line_count()));
+  expect_frontiers_of_fresh_check(analysis, document);
 }
 
 TEST(Analysis, AShiftPassesOverWrongIncrementalArcs) {
@@ -216,9 +220,7 @@ TEST(Analysis, AShiftOfEachAxisPassesOverIncrementalMoves) {
       analysis.update();
       // Far away, increments need not add up exactly.
       EXPECT_EQ(analysis.lines_checked() > 1'000, is_far) << axis;
-      const Analysis fresh(document, kSetup);
-      for (std::size_t place = 0; place < document.line_count(); place += 97)
-        ASSERT_EQ(analysis.frontier_before(place), fresh.frontier_before(place)) << axis << place;
+      expect_frontiers_of_fresh_check(analysis, document);
     }
   }
 }
@@ -321,9 +323,7 @@ TEST(Analysis, AShiftEndsWhereTheUnitsAreInDoubt) {
   Analysis analysis(document, kSetup);
   document.replace({100, 0}, {100, 0}, "X0.5\n");
   analysis.update();
-  const Analysis fresh(document, kSetup);
-  for (std::size_t line = 0; line < document.line_count(); line += 97)
-    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << line;
+  expect_frontiers_of_fresh_check(analysis, document);
 }
 
 TEST(Analysis, GoesOnWhereItWasStopped) {

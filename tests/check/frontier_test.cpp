@@ -70,6 +70,23 @@ TEST(Groups, ReducingForgetsPositionsFirst) {
   EXPECT_EQ(groups[0].state.unknown, execution::axis_bit(execution::Axis::X));
 }
 
+/// The same value stands there in both, but in one it is not known.
+TEST(Groups, ReducingKeepsWhatEitherDoesNotKnow) {
+  for (const bool is_first : {true, false}) {
+    Groups groups;
+    for (const bool is_known : {is_first, !is_first}) {
+      Group group = group_at(0);
+      group.state.position.tip.y() = is_known ? 1 : 2;
+      if (!is_known) group.state.unknown = execution::axis_bit(execution::Axis::X);
+      groups.add(group);
+    }
+    groups.reduce_to(1);
+    ASSERT_EQ(groups.size(), 1u);
+    EXPECT_EQ(groups[0].state.unknown,
+              execution::axis_bit(execution::Axis::X) | execution::axis_bit(execution::Axis::Y));
+  }
+}
+
 TEST(Groups, ReducingLeavesWhatFits) {
   Groups groups;
   for (int x = 0; x < 3; ++x) groups.add(group_at(x));
