@@ -100,13 +100,23 @@ TEST(Analysis, WhatAnIfComparesIsCheckedAgainWhereItMatters) {
   expect_few(1'200);
 }
 
+/// Each of some registers is given a value and compared once.
+std::string registers_in_turn() {
+  std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\n";
+  for (int i = 1; i <= 9; ++i) {
+    text += fmt::format("V{0}=1\nIF V{0}=1 GOTO N{0}\nX1\nN{0} X2\n", i);
+    for (int line = 0; line < 2'300; ++line) text += fmt::format("X{}\n", line % 50);
+  }
+  return text + "M02\n";
+}
+
 TEST(Analysis, AnIfThatIsInsertedIsCheckedWhereItMatters) {
-  for (const std::string& text : {optional_parts(5'000), zigzag(20'000)}) {
+  for (const std::string& text : {optional_parts(5'000), zigzag(20'000), registers_in_turn()}) {
     Document document(text);
     Analysis analysis(document, kSetup);
     const auto expect_few = [&] {
       analysis.update();
-      EXPECT_LE(analysis.lines_checked(), 1'200u);
+      EXPECT_LE(analysis.lines_checked(), 400u);
       EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
     };
     document.replace({8'003, 0}, {8'003, 0}, "IF VGPL=9 GOTO N88888\nX1\nN88888 X2\n");
@@ -147,6 +157,28 @@ TEST(Analysis, AJumpMovesUpWhenLinesAboveAreRemoved) {
     const Report report = analysis.report();
     ASSERT_EQ(report.findings.size(), 1u);  // Nothing gives V9 a value.
     ASSERT_EQ(report.findings[0].line, document.line_count() - 5) << first;
+  }
+}
+
+/// A finding far below says which way it was reached, also where other jumps came or went above that one.
+TEST(Analysis, AJumpKeepsItsNumberOfPathsWhereAnotherComesAbove) {
+  std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\nIF VGPL=1 GOTO N5\nG41\nN5 X1\n";
+  text += "IF VGPL=2 GOTO N6\nX4\nN6 X5\n";
+  for (int i = 0; i < 1'000; ++i) text += fmt::format("G1 X{}\n", i % 100);
+  Document document(text + "M02\n");
+  Analysis analysis(document, kSetup);
+  const auto expect_same_path = [&] {
+    const std::vector<std::string> report = support::texts_of(analysis.report());
+    EXPECT_EQ(report, support::texts_of(check_text(document.text(), kSetup)));
+    ASSERT_EQ(report.size(), 1u);
+    EXPECT_NE(report[0].find("via not "), std::string::npos) << report[0];
+  };
+  expect_same_path();
+  for (const bool is_inserted : {true, false}) {
+    document.replace({2, 0}, {is_inserted ? 2u : 3u, 0}, is_inserted ? "IF VGPL=3 GOTO N4\nX7\nN4 X8\n" : "");
+    analysis.update();
+    EXPECT_LE(analysis.lines_checked(), 300u);
+    expect_same_path();
   }
 }
 
