@@ -38,7 +38,7 @@ class Test:
 
 @dataclasses.dataclass
 class Outcome:
-    kind: str = "untried"  # noticed, survived
+    kind: str = "untried"  # noticed, survived, explained
     by: str = ""  # The tests that noticed, or timed out.
     reaching: int = 0
 

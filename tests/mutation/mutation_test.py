@@ -16,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.dont_write_bytecode = True
 
 import covering  # noqa: E402
+import explained  # noqa: E402
 
 try:
     import mutants as mutation
@@ -165,6 +166,39 @@ class Mutants(unittest.TestCase):
             numbered = mutation.those_that_compile(self.root, self.copy, mutation.sample(found, 1000, 1), ["g++", "-std=c++20", f"-I{ROOT}"], 1)
         self.assertEqual(numbered, {})
         self.assertIn("a.cpp does not compile", said.getvalue())
+
+
+class Explanations(unittest.TestCase):
+    TEXT = """
+[["a.cpp"]]
+place = "if («count < 2» && text) say(\\"few\\");"
+changed = "count <= 2"
+effect = "nothing"
+why = "Nobody counts to 2."
+"""
+
+    def setUp(self):
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (self.root / "a.cpp").write_text(SOURCE)
+
+    def test_are_of_the_mutant_at_their_place(self):
+        explanations = explained.load(self.TEXT)
+        found = mutation.find(self.root, ["a.cpp"], ["-std=c++20"], 1)
+        self.assertEqual([text_of(each) for each in explained.of(self.root, found, explanations)], ["23:7: `count < 2` becomes `count <= 2`"])
+        self.assertEqual(list(explained.stale(self.root, explanations)), [])
+
+    def test_are_stale_where_their_line_has_changed(self):
+        (self.root / "a.cpp").write_text(SOURCE.replace("&& text", "&& *text"))
+        self.assertEqual(len(list(explained.stale(self.root, explained.load(self.TEXT)))), 1)
+
+    def test_are_complete_and_given_once(self):
+        for wrong in (self.TEXT + self.TEXT, self.TEXT.replace("Nobody counts to 2.", ""), self.TEXT.replace('"nothing"', '"none"')):
+            with self.assertRaises(ValueError):
+                explained.load(wrong)
+
+    def test_of_this_project_have_their_places(self):
+        stale = explained.stale(ROOT, explained.load(explained.FILE.read_text(encoding="utf-8")))
+        self.assertEqual([f"{each.path}: {each.place}" for each in stale], [])
 
 
 class Runs(unittest.TestCase):
