@@ -137,8 +137,12 @@ inline constexpr WrongText kWrongTexts[] = {
      "1:79: lint.houseRules[0].forbid[1]: M1000 is none of what a rule can name: an M such as M08, a G such as G90, "
      "toolChange, motion, rapid, cut, end\n"
      "1:88: lint.houseRules[0].forbid[2]: the text is empty"},
-    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "forbid": ["G01", "M08"]}]}})",
-     "1:65: lint.houseRules[0].forbid[0]: G01 is a motion: name it motion, rapid or cut", kSchemaAccepts},
+    {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "forbid": ["G00", "G01", "M00", "M08"]}]}})",
+     "1:65: lint.houseRules[0].forbid[0]: G00 is a motion: name it motion, rapid or cut\n"
+     "1:72: lint.houseRules[0].forbid[1]: G01 is a motion: name it motion, rapid or cut\n"
+     "1:79: lint.houseRules[0].forbid[2]: M00 is none of what a rule can name: an M such as M08, a G such as G90, "
+     "toolChange, motion, rapid, cut, end",
+     kSchemaAccepts},
     {R"({"lint": {"houseRules": [{"id": "a", "message": "a", "lowestZ": 0, "forTools": ["101001", "T1234567", "T*1"]}]}})",
      "1:81: lint.houseRules[0].forTools[0]: 101001 is no tool: T with six digits, or with fewer and a *, as in T101*\n"
      "1:91: lint.houseRules[0].forTools[1]: T1234567 is no tool: T with six digits, or with fewer and a *, as in "

@@ -131,6 +131,11 @@ TEST(ForeignFormText, IsFoundHoweverItIsSpelled) {
     EXPECT_THAT(text_of(line), testing::HasSubstr("repeats lines")) << line;
 }
 
+TEST(ForeignFormText, ClaimsNothingOfALineThatHasLostItsLineEnds) {
+  const std::string line = "G43 H1 Z5" + std::string(1'000, ' ') + "G00 X0";
+  EXPECT_EQ(text_of(line), "G43 is not among the G codes of this control");
+}
+
 /// Italian words that start like those of other controls, and lines of this control with a slip.
 TEST(ForeignFormText, ClaimsNoOtherControlWithoutReason) {
   for (const char* const line :

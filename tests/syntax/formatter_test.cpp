@@ -120,6 +120,8 @@ TEST(Formatter, OrdersWordsWhereTheirOrderMeansNothing) {
                                        {"(a) Y2 X1 (b)", "(a) X1 Y2 (b)"},
                                        {"G1 Y2 (a) X1", "G1 Y2 (a) X1"},
                                        {"V2 = 1 V1 = 2", "V2 = 1 V1 = 2"},
+                                       {"M100 N10 P1=2", "N10 M100 P1=2"},
+                                       {"G1 Y2 X(a)1", "G1 X1 Y2 (a)"},
                                    });
 }
 

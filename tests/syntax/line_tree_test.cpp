@@ -147,7 +147,8 @@ INSTANTIATE_TEST_SUITE_P(Lines, Comments,
                                          TreeCase{"X1;a(b)", "[;a(b)]"}, TreeCase{"(a(b)c", "[(a(b)]"},
                                          TreeCase{"(a;b)", "[(a;b)]"}, TreeCase{"X1(a)0", "[(a)]"},
                                          TreeCase{"X(a)1(b)", "[(a)][(b)]"}, TreeCase{"V1(a)=(b)2", "[(a)][(b)]"},
-                                         TreeCase{"I(a)F V1=2 G(b)OTO N1", "[(a)][(b)]"}, TreeCase{"X1 (a", "[(a]"},
+                                         TreeCase{"I(a)F V1=2 G(b)OTO N1", "[(a)][(b)]"},
+                                         TreeCase{"IF V(a)GPL=2 GOTO N1", "[(a)]"}, TreeCase{"X1 (a", "[(a]"},
                                          TreeCase{"()", "[()]"}, TreeCase{";", "[;]"},
                                          TreeCase{"X1(a)(b)0", "[(a)][(b)]"}));
 
@@ -365,6 +366,18 @@ TEST(TreeStore, ALineLeavesTheFindingsOfOthers) {
   store.append_line(below.data(), below.data() + below.size());
   EXPECT_EQ(support::text_of(store.tree(0, above.data())), support::text_of(ParsedLine(above).tree()));
   EXPECT_EQ(support::text_of(store.tree(1, below.data())), support::text_of(ParsedLine(below).tree()));
+}
+
+TEST(TreeStore, ReadsNothingOfWhatItHeldBeforeItWasCleared) {
+  TreeStore store;
+  for (const std::string_view before : {"T1 T2 T3 T4", "S1 S2 S3 S4", "P1=1 P2=2 P3=3"})
+    for (const std::string_view text : {"M06 T", "G90 G92", "G01 X1 M101 P1", "V1 =", "IF V1 = 2 GOTO"}) {
+      store.append_line(before.data(), before.data() + before.size());
+      store.clear();
+      store.append_line(text.data(), text.data() + text.size());
+      EXPECT_EQ(support::text_of(store.tree(0, text.data())), support::text_of(ParsedLine(text).tree())) << before;
+      store.clear();
+    }
 }
 
 }  // namespace

@@ -22,8 +22,15 @@ std::string random_number(Random& random) {
   return text;
 }
 
+/// An assignment, or something else in the place of its =.
+std::string random_assignment(Random& random) {
+  const std::string name = std::string(random.any_of({"V", "v", "V "})) + std::to_string(random.between(1, 33));
+  return name + std::string(random.any_of({"=", " = ", "= ", " =", "*", "X", " ", ":"})) + random_number(random);
+}
+
 /// Lines of words with motions among them, of which about one in five is plain.
 std::string random_line(Random& random) {
+  if (random.one_in(20)) return random_assignment(random);
   std::string text;
   if (random.one_in(3)) text += "N" + std::to_string(random.between(0, 100'000));
   if (!text.empty() && !random.one_in(8)) text += ' ';
