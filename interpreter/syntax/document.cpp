@@ -52,10 +52,7 @@ Document::~Document() = default;
 Document::Document(std::string_view text) { rebuild(0, 0, text, true); }
 
 std::size_t Document::line_count() const { return chunks_.back().first_line + chunks_.back().chunk->lines(); }
-std::size_t Document::chunk_lines(std::size_t chunk) const {
-  return chunk + 1 < chunks_.size() ? chunks_[chunk + 1].first_line - chunks_[chunk].first_line
-                                    : chunks_[chunk].chunk->lines();
-}
+std::size_t Document::chunk_lines(std::size_t chunk) const { return chunks_[chunk].chunk->lines(); }
 std::string_view Document::chunk_text(std::size_t chunk) const { return chunks_[chunk].chunk->text(); }
 
 Document::Place Document::locate(std::size_t line) const {

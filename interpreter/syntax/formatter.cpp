@@ -101,7 +101,10 @@ class Rereading {
 
   bool is_equivalent(const Instruction& a, const Instruction& b) const {
     if (a.is_motion() && b.is_motion()) return is_same_motion(a, b) && has_same_arguments(a, b);
-    if (a.kind != b.kind || a.row != b.row || a.flags != b.flags) return false;
+    // That it comes first on its line matters only to a G09 and a T.
+    const bool first_counts = a.is(dialect::GRole::ExactStop) || a.kind == InstructionKind::StrayTool;
+    const int ignored = first_counts ? 0 : Instruction::kFirst;
+    if (a.kind != b.kind || a.row != b.row || (a.flags | ignored) != (b.flags | ignored)) return false;
     if (a.kind == InstructionKind::G) return has_same_arguments(a, b);
     return a.kind == InstructionKind::Jump || has_same_words(a, b);  // The words of a jump are compared by its Jump.
   }

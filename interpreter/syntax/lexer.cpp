@@ -396,7 +396,7 @@ LineParser::BesideNumber LineParser::garble_number(char first) {
   Word& before = word(word_count() - 1u);
   const bool is_word = before.letter >= 'A' && before.letter <= 'Z';
   if (is_word && before.has(Word::kMissing)) return InItsPlace;
-  if (first == ']' && word_count() > 2 && begin_[word(word_count() - 2u).begin] == '[') return InItsPlace;  // X[V1]
+  if (first == ']' && word_count() > 1 && begin_[word(word_count() - 2u).begin] == '[') return InItsPlace;  // X[V1]
   const bool is_code = dialect::contains(dialect::letters("GMN"), before.letter);  // No exponent: GOTO N10 ELSE.
   const bool is_apart = text::is_blank(begin_[before.end]);
   const bool reads_as_digit = looks_like_digit(first) && !(first == 'L' && is_apart);  // G10 L2: of other controls.

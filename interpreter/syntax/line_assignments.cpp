@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -168,8 +169,9 @@ bool LineParser::repeats_equals(std::uint16_t index, std::uint16_t last) {
 std::uint16_t LineParser::add_equals(std::uint16_t index) {
   const std::uint16_t last = end_of_value(index);
   if (index > 0) {
-    if (last == index && index + 1 < word_count() && word(index - 1u).letter == kError)  // #1 = #2 + 1
-      take_back("unknown-word"_diag, word(index + 1u).span());
+    if (word(index - 1u).letter == kError)  // #1 = #2 + 1, #1 = #2 * #3: all of it is one mistake.
+      for (std::uint16_t i = index; i < std::max<int>(last, index + 1) && i + 1 < word_count(); ++i)
+        take_back("unknown-word"_diag, word(i + 1u).span());
     if (is_equals_reported_before(index) || own_equals(index, last)) return last;
     take_parameter_before_function(index);
     const char letter = word(index - 1u).letter;

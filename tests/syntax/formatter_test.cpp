@@ -121,6 +121,8 @@ TEST(Formatter, OrdersWordsWhereTheirOrderMeansNothing) {
                                        {"G1 Y2 (a) X1", "G1 Y2 (a) X1"},
                                        {"V2 = 1 V1 = 2", "V2 = 1 V1 = 2"},
                                        {"M100 N10 P1=2", "N10 M100 P1=2"},
+                                       {"F2000 G90 G01 Y2 X1", "G90 G01 X1 Y2 F2000"},
+                                       {"F2000 M08 G01 Y2 X1", "M08 G01 X1 Y2 F2000"},
                                        {"G1 Y2 X(a)1", "G1 X1 Y2 (a)"},
                                    });
 }
