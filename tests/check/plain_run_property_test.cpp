@@ -146,6 +146,17 @@ TEST(PlainRunProperty, PassesOnWhatItDoesNotRead) {
   EXPECT_GT(with_arcs, support::often(100));
 }
 
+/// Lines without B and C read neither the origin of the workpiece nor how rotary axes are interpolated.
+TEST(PlainRun, PassesOnTheOriginAndTheInterpolation) {
+  State other;
+  other.workpiece_origin = {1, 2, 3};
+  other.set_mode(dialect::ModalGroup::Interpolation, 49);
+  State after;
+  PlainRun::copy_passed_on(other, {.letters = dialect::kLinearLetters}, after);
+  EXPECT_EQ(after.workpiece_origin, other.workpiece_origin);
+  EXPECT_EQ(after.mode(dialect::ModalGroup::Interpolation), 49);
+}
+
 /// The same for lines of one assignment, or one IF.
 TEST(LoneAssignment, AndLoneJumpLeaveTheStateOfExecute) {
   std::size_t count = 0;

@@ -246,5 +246,12 @@ TEST(SurelyAbsolute, IsNeverWrongAndKnowsWhatDoesNotNearlyFit) {
   }
 }
 
+/// However small the tolerance: an arc about a center that is equally far from both ends may be meant so.
+TEST(SurelyAbsolute, IsNotSureOfAnArcThatFitsBothWays) {
+  const PlanePoint start{10, 0};
+  const ArcGiven given{.end = {-20, 0}, .center_u = -20, .center_v = 5};  // About (-10, 5), or from the start (0, 5).
+  for (const double tolerance : {0.0, 1e-9, 0.01}) EXPECT_FALSE(surely_absolute(given, start, tolerance)) << tolerance;
+}
+
 }  // namespace
 }  // namespace isocnc::geometry

@@ -94,6 +94,17 @@ TEST(ContourOffset, LeavesOutWhatItCannotReach) {
   EXPECT_NEAR(reduced.pieces[2].curve.end.y(), 4, 1e-9);
 }
 
+/// Where directions differ by so little that the offset ends count as one point, too.
+TEST(ContourOffset, GoesOnWhereItHasArrived) {
+  std::vector<Vec2> points = {{0, 0}};
+  for (const double turn : {0.0, 1e-5, -1e-5, 2e-5, 1e-3, -1e-3})
+    points.push_back(points.back() + 10 * Vec2(std::cos(turn), std::sin(turn)));
+  for (const int side : {1, -1}) {
+    const std::vector<OffsetPiece> pieces = offset(lines(points), {-5, 0}, {.radius = 3, .side = side}).pieces;
+    for (std::size_t i = 1; i < pieces.size(); ++i) EXPECT_EQ(pieces[i].curve.start, pieces[i - 1].curve.end) << i;
+  }
+}
+
 /// Pieces wait until no loop can reach back to them, also where many have been emitted already.
 TEST(ContourOffset, LeavesOutWhatItCannotReachLateInAContour) {
   std::vector<PlaneCurve> contour;

@@ -87,6 +87,18 @@ TEST(IndependentRapid, EachJointMovesAsIfAlone) {
   }
 }
 
+/// It ends at rest, so nothing that follows can change it.
+TEST(IndependentRapid, ComesOutAtOnce) {
+  const Machine router = kinematics::three_axis_router();
+  for (const Machine& machine : {independent(router), independent(with_jerk(router, 40000))}) {
+    Planner planner(machine);
+    planner.push(rapid({}, {Vec3(300, 80, 0), 0, 0}));
+    bool ends = false;
+    while (const Stretch* const stretch = planner.next()) ends = stretch->ends_move;
+    EXPECT_TRUE(ends);
+  }
+}
+
 /// From rest to v it takes v/a + a/j, or 2 sqrt(v/j) where a is not reached.
 TEST(IndependentRapid, JerkLimitsEachJoint) {
   Machine machine = independent(kinematics::three_axis_router());

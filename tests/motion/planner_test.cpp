@@ -410,6 +410,21 @@ TEST(Planner, HoldsBackNoMoreWhereJerkIsLimited) {
   EXPECT_LE(max_lag(machine, 0.01, 40000, speed(200)), 30000U);
 }
 
+TEST(Planner, CountsTheMemoryOfWhatIsNotRead) {
+  for (const kinematics::Machine& machine :
+       {uniform_machine(1000, 2000), with_jerk(uniform_machine(1000, 2000), 40000)}) {
+    Planner planner(machine);
+    for (int i = 0; i < 5000; ++i) planner.push(line({1.0 * i, 0, 0}, {i + 1.0, 0, 0}, speed(100)));
+    const std::size_t unread = planner.memory();
+    std::size_t stretches = 0;
+    while (planner.next()) ++stretches;
+    planner.forget_handed_out();
+    EXPECT_GT(stretches, 4000U);
+    EXPECT_GE(unread, planner.memory() + stretches * sizeof(Piece));
+    EXPECT_LT(unread, 5000U * 2000);
+  }
+}
+
 /// A thread of ten thousand turns is cut as it is needed.
 void expect_long_helix_to_come_out(const kinematics::Machine& machine) {
   Planner planner(machine);
@@ -435,9 +450,12 @@ double fastest_of(const kinematics::Machine& machine, const std::vector<Stretch>
 
 /// The nose stands still while B turns: the tip goes on in the direction of the feed move before, and the feed move
 /// behind in that of the swing; on the way it is faster than s, which counts the chord.
-TEST(Planner, FeedHoldsInCornersToRapidsThatSwing) {
+class Swinging : public testing::TestWithParam<bool> {};
+
+TEST_P(Swinging, FeedHoldsInCornersToRapids) {
   kinematics::Machine machine = kinematics::head_router();
   for (kinematics::AxisLimits& axis : machine.axes) axis.acceleration = axis.speed = 1e7;
+  if (GetParam()) machine = with_jerk(machine, 1e11);
   const kinematics::Move feed = line({310, 100, 200}, {300, 100, 200}, speed(50));
   kinematics::Move rapid;
   rapid.tag = 1;
@@ -455,6 +473,8 @@ TEST(Planner, FeedHoldsInCornersToRapidsThatSwing) {
   EXPECT_LE(fastest_of(machine, stretches, 2), 40 * (1 + 1e-6));
   EXPECT_GT(fastest_of(machine, stretches, 1), 1000);
 }
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutJerk, Swinging, testing::Bool());
 
 TEST(Planner, FeedMovesKeepToTheSpeedsOfFeedMoves) {
   kinematics::Machine machine = uniform_machine(1000, 2000);
@@ -529,6 +549,56 @@ TEST(Planner, TangentialArcsAreNotStops) {
                                          line({0, 40, 0}, {-50, 40, 0}, speed(40))};
   const double closed = s_curve(100 + 20 * std::numbers::pi, 40, 2000, 20000);
   EXPECT_NEAR(time_of(machine, moves), closed, 0.01 * closed);
+}
+
+/// docs/motion.md: the blend counts as long as the lines that it replaces. Where the axes could turn faster than the
+/// feed, it takes no longer than these, but for the bound of the tip's speed: 1 + |e2 - e1| / 64 on two of its three
+/// cubics.
+TEST(Planner, ASlowCornerCostsLittleWhereJerkIsLimited) {
+  kinematics::Machine machine = with_jerk(uniform_machine(1000, 1e5), 1e7);
+  machine.corner_tolerance = 1;
+  const double time =
+      time_of(machine, {line(kOrigin, {20, 0, 0}, speed(10)), line({20, 0, 0}, {20, 20, 0}, speed(10))});
+  const double depth = 72.0 / 13 / std::numbers::sqrt2;
+  const double straight = s_curve(40, 10, 1e5, 1e7);
+  EXPECT_GE(time, straight);
+  EXPECT_LE(time, 1.001 * straight + 2 * depth / 10 * 2 / 3 * std::numbers::sqrt2 / 64);
+}
+
+/// Feed and then a rapid that swings the tip along an arc of 300 degrees, of which s counts the chord. Each of the four
+/// parts of the corner makes a quarter of its turn, and its fastest place keeps to the feed: so in the middle of the
+/// corner the tip is slower by the ratio of its rates there and at three quarters.
+TEST(Planner, ACornerToASwingIsAsFastAsTheFeedPermitsWhereJerkIsLimited) {
+  kinematics::Machine machine = with_jerk(uniform_machine(1e7, 1e7), 1e11);
+  machine.kinematics = {.kind = kinematics::MachineKind::Head, .pivot = 200};
+  kinematics::Move feed = line({0, 10, 0}, kOrigin, speed(50));
+  feed.from.b = feed.to.b = 90;
+  kinematics::Move rapid;
+  rapid.tag = 1;
+  rapid.from = feed.to;
+  kinematics::Coordinates joints = kinematics::inverse(machine.kinematics, kinematics::coordinates(rapid.from), 0);
+  joints[kinematics::kC] = 300;
+  rapid.to = kinematics::pose(kinematics::forward(machine.kinematics, joints, 0));
+  rapid.controls_tool_point = false;
+  double middle = 0;
+  for (const Stretch& stretch : plan(machine, {feed, rapid}))
+    if (stretch.tag == 0 && stretch.ends_move)
+      middle = stretch.at(machine.kinematics, stretch.start + stretch.duration).speed;
+  const double swing = std::numbers::pi * 300 / 180 / (2 * std::sin(std::numbers::pi * 150 / 180));
+  EXPECT_NEAR(middle, 50 * (0.5 + 0.5 * swing) / (0.25 + 0.75 * swing), 0.01 * 50);
+}
+
+/// However short a move is: its end is reported, even where the way before it leaves it no digits.
+TEST(Planner, EveryMoveEndsWhereJerkIsLimited) {
+  const kinematics::Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
+  const Vec3 step(2e-9, 0, 0);
+  for (const double length : {10.0, 1e5, 1e9}) {
+    const Vec3 far(-length, 0, 0);
+    const auto stretches = plan(machine, {line(far, kOrigin, speed(100)), line(kOrigin, step, speed(100)),
+                                          line(step, 2 * step, speed(100)), line(2 * step, kOrigin, speed(100))});
+    EXPECT_EQ(std::count_if(stretches.begin(), stretches.end(), [](const Stretch& each) { return each.ends_move; }), 4)
+        << length;
+  }
 }
 
 /// Chains of short lines are as fast as one long line where they are straight.
