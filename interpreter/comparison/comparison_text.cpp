@@ -140,11 +140,11 @@ std::string and_turned(const std::string& text, const BehaviorChange& change, La
          (degrees == "1" ? std::string(kTurnedByOne.in(language)) : dialect::format(kTurned, language, degrees));
 }
 
-/// Lets the lines of a change reach to those of another one.
+/// Lets the lines of a change reach to those of another one with the same words: each program has a part in both, or in
+/// neither.
 void include_lines(const BehaviorChange& next, BehaviorChange& change) {
   const auto include = [](const std::optional<ChangedLines>& more, std::optional<ChangedLines>& lines) {
     if (more && lines) *lines = {std::min(lines->first, more->first), std::max(lines->last, more->last)};
-    if (more && !lines) lines = more;
   };
   include(next.old_lines, change.old_lines);
   include(next.new_lines, change.new_lines);

@@ -43,19 +43,14 @@ std::optional<std::vector<GapStep>> gap_steps(const RunPair& runs, const Aligned
     costs[0] = static_cast<float>(i);
     last[i * (columns + 1)] = GapStep::OnlyInA;
     for (std::size_t k = 1; k <= columns; ++k) {
-      const float replaced = replacement_cost(runs, runs.a.actions[gap.a_begin + i - 1],
-                                              runs.b.actions[gap.b_begin + k - 1], shift, gap.shift);
-      const float with_both = diagonal + replaced;
+      const float with_both = diagonal + replacement_cost(runs, runs.a.actions[gap.a_begin + i - 1],
+                                                          runs.b.actions[gap.b_begin + k - 1], shift, gap.shift);
       const float only_a = costs[k] + 1;
       const float only_b = costs[k - 1] + 1;
       diagonal = costs[k];
       costs[k] = std::min({with_both, only_a, only_b});
       GapStep& step = last[i * (columns + 1) + k];
-      if (costs[k] == with_both) {
-        step = replaced > 0 ? GapStep::Replaced : GapStep::Same;
-      } else {
-        step = costs[k] == only_a ? GapStep::OnlyInA : GapStep::OnlyInB;
-      }
+      step = costs[k] == with_both ? GapStep::Pair : costs[k] == only_a ? GapStep::OnlyInA : GapStep::OnlyInB;
     }
   }
   std::vector<GapStep> steps;

@@ -9,9 +9,9 @@
 
 namespace isocnc::comparison {
 
-/// What becomes of the next actions of a gap: the two are the same, or one takes the place of the other, or the first
-/// or the second program alone has it.
-enum class GapStep : std::uint8_t { Same, Replaced, OnlyInA, OnlyInB };
+/// What becomes of the next actions of a gap: one takes the place of the other, or the first or the second program
+/// alone has it.
+enum class GapStep : std::uint8_t { Pair, OnlyInA, OnlyInB };
 
 /// Whether a gap of so many actions of both runs is too large to look into.
 bool is_too_large(std::size_t a_count, std::size_t b_count);

@@ -223,9 +223,8 @@ class StepMaker {
     for (const GapStep step : *steps) {
       if (step != GapStep::OnlyInB) ++at.a_end;
       if (step != GapStep::OnlyInA) ++at.b_end;
-      const bool is_pair = step == GapStep::Same || step == GapStep::Replaced;
       const auto only = step == GapStep::OnlyInA ? MotionStep::Kind::OnlyInA : MotionStep::Kind::OnlyInB;
-      add({is_pair ? MotionStep::Kind::Pair : only, at});
+      add({step == GapStep::Pair ? MotionStep::Kind::Pair : only, at});
       at.a_begin = at.a_end;
       at.b_begin = at.b_end;
     }

@@ -474,8 +474,7 @@ class OperationSorter {
       ordered.actions[i].start = start;
       start += durations[i];
     }
-    for (ActionDecision& decision : ordered.decisions)
-      decision.action = index[std::min(decision.action, index.size() - 1)];
+    for (ActionDecision& decision : ordered.decisions) decision.action = index[decision.action];
     for (ActionSpindle& spindle : ordered.spindles)
       if (spindle.cause) spindle.cause = index[*spindle.cause];
     std::stable_sort(

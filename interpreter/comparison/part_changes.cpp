@@ -150,7 +150,7 @@ class PartNamer {
     ActionRanges found{at.a_begin, at.a_begin, at.b_begin, at.b_begin};
     for (const GapStep step : *steps) {
       const bool is_there = (jump.is_in_a ? found.a_end : found.b_end) == jump.taken->action;
-      if (!is_there && (jump.is_in_a ? found.a_end : found.b_end) > jump.taken->action) break;
+      if ((jump.is_in_a ? found.a_end : found.b_end) > jump.taken->action) break;
       if (step != GapStep::OnlyInB) ++found.a_end;
       if (step != GapStep::OnlyInA) ++found.b_end;
       if (is_there && step == only_other) continue;

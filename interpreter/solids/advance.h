@@ -50,7 +50,7 @@ struct ContactSpan {
   double last = 0;       ///< Largest parameter found at which the contact lasts.
   bool is_over = false;  ///< Whether the body was seen free after `last`; false where the motion ends in contact.
   double free = 0;       ///< If it is over: a parameter after `last` at which the body is free.
-  double deepest_s = 0;  ///< Where the depth is largest.
+  double deepest_s = 0;  ///< Where the depth is largest; the first such place.
   Clearance deepest;     ///< The distance there.
   int evaluations = 0;
 };

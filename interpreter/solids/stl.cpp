@@ -95,23 +95,22 @@ class StlText {
         return;
       }
       if (!same_word(word, "facet")) return fail_at(word);
-      if (!read_facet()) return;
+      read_facet();
     }
   }
 
   /// After `facet`.
-  bool read_facet() {
-    if (triangles_.size() == Mesh::kMaxTriangles) return fail(StlKind::TooManyTriangles);
-    if (!expect("normal")) return false;
+  void read_facet() {
+    if (triangles_.size() == Mesh::kMaxTriangles) fail(StlKind::TooManyTriangles);
+    if (problem_ || !expect("normal")) return;
     for (int i = 0; i < 3; ++i)
-      if (next_word().empty()) return false;
-    if (!expect("outer") || !expect("loop")) return false;
+      if (next_word().empty()) return;
+    if (!expect("outer") || !expect("loop")) return;
     Triangle triangle;
     for (Vec3& corner : triangle.corners)
-      if (!expect("vertex") || !read_coordinates(corner)) return false;
-    if (!expect("endloop") || !expect("endfacet")) return false;
+      if (!expect("vertex") || !read_coordinates(corner)) return;
+    if (!expect("endloop") || !expect("endfacet")) return;
     triangles_.push_back(triangle);
-    return true;
   }
 
   bool read_coordinates(Vec3& corner) {

@@ -34,19 +34,16 @@ class SlopeRow {
     const double rounding = surface.rounding * surface.rounding;
     const double end = surface.end * surface.end;
     const auto inner = [=](double square) { return square_root(start * start - square); };
+    const auto to_the_rim = [](double) { return kInfinite; };
     switch (surface.kind) {
       case LowerSurface::Kind::Flat:
-        return lower(
-            feet, squares, size, heights, [=](double square) { return square_root(end - square); },
-            [=](double) { return surface.z; });
+        return lower(feet, squares, size, heights, to_the_rim, [=](double) { return surface.z; });
       case LowerSurface::Kind::Cone: {
         const auto height = [=](double square) {
           const double r = std::sqrt(square);
           return surface.z + surface.slope * (r > start ? r - start : 0.0);
         };
-        if (!(surface.slope > steep))
-          return lower(
-              feet, squares, size, heights, [=](double square) { return square_root(end - square); }, height);
+        if (!(surface.slope > steep)) return lower(feet, squares, size, heights, to_the_rim, height);
         const double share = steep / std::sqrt(surface.slope * surface.slope - steep * steep);
         return lower(
             feet, squares, size, heights,

@@ -39,7 +39,7 @@ namespace {
 constexpr std::string_view kMagic = "isostock";
 constexpr std::uint32_t kVersion = 2;  // 1 had no check sum.
 constexpr std::size_t kSmallestTile = 9;
-constexpr std::size_t kMaxPacket = 32767;
+static_assert(Tile::kSize * Tile::kSize <= 32767, "A packet may hold all heights of a tile.");
 constexpr std::size_t kSmallestRun = 3;  ///< Shorter runs are written as other heights.
 
 class Writer {
@@ -56,7 +56,7 @@ class Writer {
     std::size_t others = 0;  // Start of the heights that are in no packet yet.
     for (std::size_t i = 0; i < heights.size();) {
       std::size_t end = i + 1;
-      while (end < heights.size() && end - i < kMaxPacket && heights[end] == heights[i]) ++end;
+      while (end < heights.size() && heights[end] == heights[i]) ++end;
       if (end - i >= kSmallestRun) {
         write_others(heights, others, i);
         write_u16(0x10000 - (end - i));
@@ -275,8 +275,6 @@ class StockReader {
     in_.read_heights(size, -kFar, kFar, bottoms_);
     in_.read_heights(size, -kFar, kFar, tops_);
     const std::size_t further = in_.read_u32();
-    constexpr std::size_t kFurtherSize = 10;
-    if (in_.left() / kFurtherSize < further) in_.fail(FileProblem::Truncated, in_.offset() + in_.left());
     std::vector<DexelInterval> material;
     std::size_t next = 0;  // Dexel that is to be appended.
     const auto append_highest = [&](std::size_t end) {

@@ -423,7 +423,8 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
     bool is_in_row = false;
   };
   std::vector<Window> windows;
-  Window all{nullptr, grid.rows, 0, grid.columns, 0};
+  int first_row = grid.rows;
+  int last_row = 0;
   for (const SweptPiece& piece : pieces) {
     const solids::BoundingBox& box = piece.bounds();
     if (!sink.has_material_in({box.min().z(), box.max().z()})) continue;
@@ -431,10 +432,8 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
                         grid.first_column(box.min().x()), grid.first_column(box.max().x())};
     if (window.first_row >= window.last_row || window.first >= window.last) continue;
     windows.push_back(window);
-    all.first_row = std::min(all.first_row, window.first_row);
-    all.last_row = std::max(all.last_row, window.last_row);
-    all.first = std::min(all.first, window.first);
-    all.last = std::max(all.last, window.last);
+    first_row = std::min(first_row, window.first_row);
+    last_row = std::max(last_row, window.last_row);
   }
   // What a cut must be deeper than, mm, so that its depth along the axis is looked for.
   const auto least_depth = [&] {
@@ -545,7 +544,7 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
   };
   // Rows from the `from`-th one on, each `step`-th one; in a group of dexels, `most` of them.
   const auto take_rows = [&](int from, int step, int most) {
-    for (int row = from; row < all.last_row; row += step) {
+    for (int row = from; row < last_row; row += step) {
       int first = grid.columns;
       int last = 0;
       for (Window& window : windows) {
@@ -581,10 +580,10 @@ void sweep(std::span<const SweptPiece> pieces, DexelSink& sink) {
     }
   };
   if (sink.only_finds()) {
-    take_rows(all.first_row, kTogether, 1);
+    take_rows(first_row, kTogether, 1);
     if (static_cast<double>(sink.count().all.depth) > kDeep) return;
   }
-  take_rows(all.first_row, 1, kTogether);
+  take_rows(first_row, 1, kTogether);
 }
 
 }  // namespace isocnc::stock

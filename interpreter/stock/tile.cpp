@@ -219,7 +219,7 @@ void Tile::cut_dexel_of_many(int row, int column, float bottom, float top, CutTa
     float cut_bottom = std::max(bottom, old_bottom);
     float cut_top = std::min(top, old_top);
     if (!(cut_bottom < cut_top)) {
-      if (old_bottom < old_top) left.push_back({column, old_bottom, old_top});
+      left.push_back({column, old_bottom, old_top});
       return;
     }
     if (cut_bottom - old_bottom < kSkin) cut_bottom = old_bottom;

@@ -903,6 +903,7 @@ const ChainCase kChains[] = {
     {"StepsAroundTheEnd", {{0, 0}, {10, 0}}, {{0, 0}, {10, 0}, {10.9, 0}, {10, 0.9}, {10, 0}}, true},
     {"APlaceTwice", {{0, 0}, {5, 0}, {5, 0}, {10, 0}}, {{0, 0}, {5, 0}, {10, 0}}, true},
     {"APlaceTwiceAway", {{0, 0}, {5, 2}, {5, 2}, {10, 0}}, {{0, 0}, {10, 0}}, false},
+    {"AwayFromAPlaceTwice", {{0, 0}, {9, 0}, {9, 0}, {20, 0}}, {{0, 0}, {9, 0}, {9, 30}, {9, 0}, {20, 0}}, false},
     {"OnePlaceTwiceOnly", {{0, 0}, {0, 0}}, {{0, 0}, {0.5, 0}, {0, 0}}, true},
     {"CircleTheOtherWayAround", {{0, 0}, {5, 0}, {5, 5}, {0, 0}}, {{0, 0}, {5, 5}, {5, 0}, {0, 0}}, false},
 };
@@ -980,6 +981,33 @@ TEST(Comparison, NamesArcsTheOtherWayAroundWithAnyTolerance) {
               fmt::format("shape 5|5: another path, up to {:.3f} mm away\n", radius * std::sqrt(2)));
 }
 
+TEST(Comparison, OnlyTwoArcsInOnePlaneAreTheOtherWayAround) {
+  const auto first_feed = [](const RecordedRun& run) {
+    return *std::find_if(run.actions.begin(), run.actions.end(),
+                         [](const MachineAction& each) { return each.is_motion() && !each.is_rapid; });
+  };
+  const auto is_other_way = [&](const std::string& one, const std::string& other) {
+    const RecordedRun a = recorded(kHead + one + " F500\nM02\n");
+    const RecordedRun b = recorded(kHead + other + " F500\nM02\n");
+    return is_other_way_around({a, b, 0.001}, first_feed(a), first_feed(b));
+  };
+  const std::string circle = "G02 X10 Y20 I15 J20";
+  EXPECT_TRUE(is_other_way(circle, "G03 X10 Y20 I15 J20"));
+  EXPECT_FALSE(is_other_way(circle, circle));
+  EXPECT_FALSE(is_other_way(circle, "G18 G03 X10 Z40 I15 K40")) << "a plane across the first one";
+  EXPECT_FALSE(is_other_way(circle, "G01 X50"));
+  EXPECT_FALSE(is_other_way("G01 X50", circle));
+}
+
+/// While B turns, the tip may be anywhere within the tolerance.
+TEST(Comparison, TakesATurnInPartsForTheSame) {
+  const std::string whole = kHead + "G49\nG01 X20 B10 F500\nX20.04 B30\nY50\nX90\nM02\n";
+  for (const char* const middle : {"X20 B20", "X20.02 B20", "X20.04 B20"}) {
+    const std::string parts = replaced(whole, "X20.04 B30", fmt::format("{}\nX20.04 B30", middle));
+    EXPECT_EQ(shown(changes_between(whole, parts, {.tolerance = 0.1})), "") << middle;
+  }
+}
+
 /// Around a corner with a tool, under the G words of its contour.
 std::string contour(std::string_view tool, std::string_view side) {
   return fmt::format("M06 {}\nS12000 M03\nG00 X0 Y0 Z5\n{}\nG01 X10 Y10 F1000\nY50\nX50\nG40\nG00 X0 Y0\nM02\n", tool,
@@ -1051,6 +1079,17 @@ TEST(Comparison, NamesWaysOfLinesThatAreJoinedFromParts) {
   EXPECT_EQ(shown(changes_between(old_program, new_program, {.tolerance = 0.2})), "");
 }
 
+/// Each of them has two parts, of which the second one ends where it did.
+TEST(Comparison, NamesTheFirstPartsOfTwoLinesThatAreExchanged) {
+  const auto program = [](const std::string& first, const std::string& second) {
+    return "M06 T101001\nG00 X10 Y" + first + "G00 Z40\nX10 Y" + second + "G00 Z40\nM02\n";
+  };
+  const std::string one = "20\nG01 Z-5 F2000\nX40 Y19.96\nX70 Y20\n";
+  const std::string other = "20.09\nG01 Z-5 F2000\nX40.1 Y20.13\nX70 Y20.09\n";
+  EXPECT_EQ(shown(changes_between(program(one, other), program(other, one), {.tolerance = 0.1})),
+            "reordered 4|9: order changed\nreordered 9|4: order changed\n");
+}
+
 /// Places off a line by less than the tolerance, and a feed that differs by less than 0.01 %.
 TEST(Comparison, NamesWhatStandsBesideALineOfOtherPartsAlone) {
   const std::string last = "X60 Y20\nY40\nX30\nG00 Z50\nM02\n";
@@ -1080,6 +1119,20 @@ TEST(Comparison, NamesAMissingSectionOfAFinePath) {
     ASSERT_EQ(changes.size(), 1U) << tolerance << '\n' << shown(changes);
     EXPECT_EQ(changes[0].kind, ChangeKind::Removed) << shown(changes);
     EXPECT_EQ(changes[0].old_motions, 100U) << shown(changes);
+  }
+}
+
+/// Also where the programs differ from their first actions on.
+TEST(Comparison, NamesAMissingSectionAfterAnotherTool) {
+  const std::string path = fine_path(0.05, 0, {}).substr(kPlunged.size());
+  const std::string whole = "M06 T101001\nG00 " + path;
+  const std::string without = "M06 T101002\nG00 " + path.substr(path.find("X10.000"));
+  for (const double tolerance : {0.001, 0.1, 0.2}) {
+    const std::vector<BehaviorChange> changes = changes_between(whole, without, {.tolerance = tolerance});
+    ASSERT_EQ(changes.size(), 2U) << tolerance << '\n' << shown(changes);
+    EXPECT_EQ(changes[0].kind, ChangeKind::Tool) << shown(changes);
+    EXPECT_EQ(changes[1].kind, ChangeKind::Removed) << shown(changes);
+    EXPECT_EQ(changes[1].old_motions, 199U) << shown(changes);
   }
 }
 

@@ -114,6 +114,7 @@ TEST(Advance, FollowsAContactToItsEnd) {
   EXPECT_NEAR(whole.last, 110, 0.02);
   EXPECT_GE(whole.free, whole.last);
   EXPECT_NEAR(whole.deepest.depth(), 5, 1e-6);
+  EXPECT_NEAR(whole.deepest_s, -5, 1) << "the first one of equally deep places";
   EXPECT_LE(whole.evaluations, kMaxContactSteps + 20);
   const ContactSpan open = follow_contact(-10, 50, distance, speed, 0.01);
   EXPECT_FALSE(open.is_over);

@@ -51,6 +51,15 @@ TEST(Clearance, OfATiltedCylinderIsThatOfItsRim) {
   EXPECT_NEAR(clearance(body(flat_body(10, 80)), tilted, kBlock).lower, 30 - 10 * std::sin(angle), kExactly);
 }
 
+/// Out sideways, the shank is free of what the holder is above.
+TEST(Clearance, OfAShankBesideWhatTheHolderIsAboveIsThatOfTheShank) {
+  const std::vector<StackRow> rows = {{10, 10, 10}, {20, 16, 16}};
+  const RevolvedBody holder = body(stacked_body(rows, 0));
+  const Clearance found = clearance(holder, upright(-4.8, 30, 10.1), kBlock);
+  EXPECT_NEAR(found.upper, -0.2, kExactly);
+  EXPECT_NEAR(found.way_out.x(), -1, kExactly);
+}
+
 TEST(Clearance, OfAStackIsThatOfItsNearestPiece) {
   const std::vector<StackRow> rows = {{40, 20, 20}, {30, 80, 80}};
   const RevolvedBody holder = body(stacked_body(rows, 0));

@@ -78,6 +78,28 @@ TEST(InnerSurface, IsRoundAboutAnInnerEdge) {
   }
 }
 
+/// A right angle has three steps of 30 degrees: two facets between its faces. Each ends half a step away from where it
+/// touches the round surface, and so do the faces.
+TEST(InnerSurface, HasAFacetForEachStepAroundAnInnerEdge) {
+  constexpr double kRadius = 2;
+  constexpr double kLength = 200;
+  const auto part = prism({{0, 0}, {0, 50}, {-50, 50}, {-50, -50}, {100, -50}, {100, 0}}, kLength);
+  const InnerSurface inner(part, kRadius);
+  const double half = kRadius * std::tan(std::numbers::pi / 12);
+  double facets = 0;
+  double floor = 0;
+  double wall = 0;
+  for (const Triangle& face : inner.faces()->triangles()) {
+    const Vec3 area = face.area_vector() / 2;
+    if (std::abs(area.x()) > 0.1 * area.norm() && std::abs(area.z()) > 0.1 * area.norm()) facets += area.norm();
+    if (std::abs(face.highest(Vec3::UnitZ()) + kRadius) < 1e-6 && area.z() > 0.9 * area.norm()) floor += area.norm();
+    if (std::abs(face.highest(Vec3::UnitX()) + kRadius) < 1e-6 && area.x() > 0.9 * area.norm()) wall += area.norm();
+  }
+  EXPECT_NEAR(facets, 2 * 2 * half * kLength, 1e-3);
+  EXPECT_NEAR(floor, (100 - kRadius + half) * (kLength - 2 * kRadius), 1);
+  EXPECT_NEAR(wall, (50 - kRadius + half) * (kLength - 2 * kRadius), 1);
+}
+
 /// Beside a round part a long cutter is deepest where it is nearest to the axis of the part.
 TEST(InnerSurface, OfALongCutterIsDeepestBesideThePart) {
   constexpr int kSides = 60;

@@ -34,6 +34,13 @@ TEST(Triangles, HaveTheirNearestPointInTheFaceOnAnEdgeOrAtACorner) {
   expect_nearest({-1, 8, 0}, {0, 3, 0});
 }
 
+TEST(Triangles, AreMovedWithAllTheirCorners) {
+  const Triangle moved = Triangle{{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 3, 0)}}.moved({1, 2, 5});
+  EXPECT_EQ(moved.corners[0], Vec3(1, 2, 5));
+  EXPECT_EQ(moved.corners[1], Vec3(5, 2, 5));
+  EXPECT_EQ(moved.corners[2], Vec3(1, 5, 5));
+}
+
 TEST(MeshTopology, OfABoxIsClosedAndFacesOutwards) {
   const MeshTopology topology = topology_of(scenes::box_triangles(kBrick));
   EXPECT_TRUE(topology.is_closed());
@@ -140,6 +147,17 @@ TEST(Mesh, IsConvexAlsoWhereItsFileHasRoundedItsCorners) {
   EXPECT_EQ(Mesh(bent).convex(), nullptr);
 }
 
+/// A corner of the upper face stands above the triangle beside it by so much.
+TEST(Mesh, IsConvexToWithinTwoMicrometers) {
+  for (const double above : {0.0018, 0.0022}) {
+    std::vector<Triangle> plate = scenes::box_triangles({{0, 0, 0}, {1600, 1600, 20}});
+    for (Triangle& triangle : plate)
+      for (Vec3& corner : triangle.corners)
+        if (corner.z() == 20 && corner.x() == corner.y()) corner.z() -= above / 2;
+    EXPECT_EQ(Mesh(plate).convex() != nullptr, above < 0.002) << above;
+  }
+}
+
 TEST(Mesh, TurnedInsideOutIsTheSameConvexSolid) {
   std::vector<Triangle> triangles = scenes::box_triangles(kBrick);
   for (Triangle& triangle : triangles) std::swap(triangle.corners[0], triangle.corners[1]);
@@ -188,6 +206,19 @@ TEST(Mesh, ThatIsConvexHasEachFaceAndEdgeOnce) {
     EXPECT_EQ(mesh.convex()->normals.size(), 4U);
     EXPECT_EQ(mesh.convex()->edges.size(), 6U);
   }
+}
+
+/// Of a face in parts, also where its inner corner is the second one in their order.
+TEST(Mesh, ThatIsConvexHasNoEdgesWithinAFace) {
+  const Vec3 top(0, 0, 0);
+  const Vec3 a(4, -1, -1);
+  const Vec3 b(4, 2, -1);
+  const Vec3 c(4, 0, 3);
+  const Vec3 inner = (a + b) / 8;
+  const Mesh mesh({{{top, b, inner}}, {{b, a, inner}}, {{a, top, inner}}, {{top, c, b}}, {{top, a, c}}, {{a, b, c}}});
+  ASSERT_NE(mesh.convex(), nullptr);
+  EXPECT_EQ(mesh.convex()->normals.size(), 4U);
+  EXPECT_EQ(mesh.convex()->edges.size(), 6U);
 }
 
 TEST(Mesh, HasAPointOfEachOfItsSurfaces) {

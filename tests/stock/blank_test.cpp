@@ -34,6 +34,32 @@ TEST(Blank, MeshIsFilled) {
   for (const double spacing : {0.5, 1.0, 4.0}) EXPECT_NEAR(Stock(&box_mesh, spacing).volume(), 32000, 0.01) << spacing;
 }
 
+/// A dexel through the edge that divides the lower face meets the upper face within a triangle.
+TEST(Blank, MeshIsFilledWhereAnEdgeOfOneFaceIsAboveNoOther) {
+  std::vector<solids::Triangle> triangles = solids::scenes::box_triangles({{0, 0, 0}, {40, 40, 20}});
+  solids::Triangle& one = triangles[triangles.size() - 2];
+  solids::Triangle& other = triangles.back();
+  const Vec3 fourth = other.corners[2];
+  other.corners[0] = one.corners[1];
+  one.corners[2] = fourth;
+  const solids::Mesh mesh(triangles);
+  ASSERT_TRUE(mesh.topology().faces_outwards());
+  for (const double spacing : {0.5, 1.0, 4.0}) EXPECT_NEAR(Stock(&mesh, spacing).volume(), 32000, 0.01) << spacing;
+}
+
+/// What a dexel only touches there is no material.
+TEST(Blank, MeshHasNothingAtItsSharpEdges) {
+  std::vector<solids::Triangle> triangles = solids::scenes::box_triangles({{0, 0, 0}, {40, 40, 10}});
+  const auto wedge = solids::scenes::prism({{20.5, 15}, {10, 18}, {10, 12}}, 40);
+  triangles.insert(triangles.end(), wedge->triangles().begin(), wedge->triangles().end());
+  const solids::Mesh mesh(triangles);
+  ASSERT_TRUE(mesh.topology().faces_outwards());
+  const Stock stock(&mesh, 1);
+  EXPECT_EQ(stock.tile({0, 0}).top(20, 21), std::optional(10.0F));
+  EXPECT_EQ(stock.tile({0, 0}).top(20, 20), std::optional(10.0F));
+  EXPECT_GT(stock.tile({0, 0}).top(20, 19), std::optional(15.0F));
+}
+
 TEST(Blank, MeshWithACavityHasTwoIntervals) {
   std::vector<solids::Triangle> triangles = solids::scenes::box_triangles({{0, 0, 0}, {40, 40, 20}});
   for (solids::Triangle triangle : solids::scenes::box_triangles({{10, 10, 5}, {30, 30, 15}})) {
@@ -54,6 +80,7 @@ TEST(Blank, MemoryIsKnownBeforehand) {
   EXPECT_LE(required_memory(table, 0.5), 250e6);
   EXPECT_LE(Stock(table, 0.5).memory(), 1e6) << "nothing is cut";
   EXPECT_TRUE(std::isinf(required_memory(table, 0)));
+  EXPECT_TRUE(std::isinf(required_memory(box({1, 1, 0}, {1, 1, 9}), 0)));
   EXPECT_TRUE(std::isinf(required_memory(table, std::nan(""))));
   for (const double limit : {1e6, 1e8, 1e9}) {
     const double spacing = fitting_spacing(table, limit);
