@@ -168,7 +168,9 @@ class Fixer {
         changed_since_undone_ = false;
       }
     }
-    return {std::move(present_.text), check::folded(std::move(present_.to_fix)), fixed_, present_.filtered_out,
+    // Of a mistake on several lines, perhaps only some are fixed.
+    const std::size_t fixed = std::max<std::size_t>(fixed_, has_changed_ ? 1 : 0);
+    return {std::move(present_.text), check::folded(std::move(present_.to_fix)), fixed, present_.filtered_out,
             std::move(present_.origins)};
   }
 
@@ -320,6 +322,7 @@ class Fixer {
     present_ = std::move(trial.version);
     present_.origins = std::move(trial.lines.origins);
     changed_since_undone_ = true;
+    has_changed_ = true;
   }
 
   const FixOptions& options_;
@@ -328,6 +331,7 @@ class Fixer {
   std::set<FindingKey> undone_;  // Findings whose fix was rejected.
   std::array<bool, fixes::kHabitCount> undone_habits_{};
   bool changed_since_undone_ = false;
+  bool has_changed_ = false;
   std::size_t fixed_ = 0;
 };
 

@@ -28,7 +28,7 @@ struct FixedText {
 
   std::string text;
   check::Report report;              ///< The remaining findings, folded (D66).
-  std::size_t fixed = 0;             ///< The number of findings fixed, counted likewise.
+  std::size_t fixed = 0;             ///< The number of findings fixed, counted likewise; not 0 if the text changed.
   std::size_t filtered_out = 0;      ///< The number of remaining findings that the filter dropped.
   std::vector<std::size_t> origins;  ///< For each line, its line in the original text, or kNew.
 };

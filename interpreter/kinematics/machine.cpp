@@ -1,6 +1,13 @@
 #include "interpreter/kinematics/machine.h"
 
+#include <algorithm>
+
 namespace isocnc::kinematics {
+
+bool limits_jerk(const Machine& machine) {
+  return std::any_of(machine.axes.begin(), machine.axes.end(),
+                     [](const AxisLimits& axis) { return axis.jerk.has_value(); });
+}
 
 Machine three_axis_router() {
   Machine machine;

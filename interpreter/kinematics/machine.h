@@ -60,6 +60,9 @@ struct Machine {
   double corner_tolerance_deg = 0.05;  ///< Maximum deviation of B and C in a rounded corner, degrees.
 };
 
+/// Whether the jerk of any axis is limited.
+bool limits_jerk(const Machine& machine);
+
 /// Returns a router of 3200 x 1600 x 500 mm, 60 m/min and 3 to 5 m/s^2. X and Y are 0 at a corner of the table, Z is 0
 /// on the table.
 Machine three_axis_router();

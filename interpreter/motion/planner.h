@@ -1,18 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <vector>
+#include <utility>
 
-#include "interpreter/kinematics/element.h"
 #include "interpreter/kinematics/machine.h"
 #include "interpreter/kinematics/move.h"
-#include "interpreter/motion/blend.h"
-#include "interpreter/motion/jerk_limiter.h"
-#include "interpreter/motion/memory.h"
-#include "interpreter/motion/piece.h"
-#include "interpreter/motion/profile.h"
+#include "interpreter/motion/path_times.h"
+#include "interpreter/motion/rounded_path.h"
+#include "interpreter/motion/rounder.h"
 #include "interpreter/motion/stretch.h"
 
 namespace isocnc::motion {
@@ -31,75 +26,57 @@ namespace isocnc::motion {
 /// next() is called as above. The class has value semantics: a copy is independent.
 class Planner {
  public:
-  explicit Planner(kinematics::Machine machine);
+  explicit Planner(kinematics::Machine machine) : machine_(std::move(machine)), times_(machine_) {}
 
   /// Appends a move. A move without length yields no stretch, but its exact stop takes effect. Rapids whose joints move
   /// independently start and end at rest.
-  void push(const kinematics::Move& move);
+  void push(const kinematics::Move& move) {
+    take_elements();
+    rounder_.push(machine_, move, times_);
+  }
 
   /// Brings the machine to rest after all moves pushed so far, and keeps it at rest for `seconds`: for dwells, tool
   /// changes, and other waits of the control.
-  void rest(double seconds = 0);
+  void rest(double seconds = 0) {
+    take_elements();
+    rounder_.come_to_rest(machine_, times_);
+    times_.wait(seconds);
+  }
 
   /// Returns the next stretch, or null if the moves pushed so far do not determine it yet. The pointer is valid until
   /// the next call of a non-const member function.
-  const Stretch* next();
+  const Stretch* next() {
+    const Stretch* stretch = times_.next();
+    while (!stretch && rounder_.has_more()) {
+      rounder_.take_next(machine_, times_);
+      stretch = times_.next();
+    }
+    return stretch;
+  }
+
+  /// Takes what another Rounder has made of the next moves, or of a rest, up to this end of it. Then go_on_from().
+  void take_rounded(RoundedPathReader& path, std::size_t end) { path.hand_on(end, machine_, times_); }
+  /// Takes the further moves as this Rounder would, which has made the path up to here.
+  void go_on_from(const Rounder& rounder) { rounder_ = rounder; }
 
   /// Frees the memory of stretches that next() has returned, so that a copy is as small as possible. The planner also
   /// does so by itself from time to time.
-  void forget_handed_out();
+  void forget_handed_out() { times_.forget_handed_out(); }
 
   /// Returns the number of bytes held outside the object itself.
-  std::size_t memory() const {
-    return profile_.memory() + bytes_of(tracks_) + (jerk_limiter_ ? jerk_limiter_->memory() : 0);
-  }
+  std::size_t memory() const { return times_.memory(); }
 
   /// Returns the time at the end of all stretches that are determined, rests included, s.
-  double time() const { return jerk_limiter_ ? jerk_limiter_->time() : profile_.time(); }
+  double time() const { return times_.time(); }
 
  private:
-  /// A piece of path, with the number of the profile's spans that run along it.
-  struct Track {
-    Piece piece;
-    int span_count = 1;
-    bool is_shared = false;      ///< Whether the piece is a blend whose second half belongs to the next move.
-    std::uint64_t next_tag = 0;  ///< Move::tag of the next move, if `is_shared`.
-  };
-
-  void append_rapid(const kinematics::Move& rapid);
-  void take_elements();
-  void take(kinematics::Element element);
-  void join(kinematics::Element& next);
-  void join_smoothly(kinematics::Element& next);
-  void come_to_rest();
-  void plan_ahead();
-  void append(const kinematics::Element& element);
-  void append_line(const kinematics::Element& element);
-  void append_curve(const kinematics::Element& element);
-  void append_arc(const kinematics::Element& element);
-  void append_smooth_curve(const kinematics::Element& element);
-  int append_fine(const kinematics::Path& circle, double begin, double end, double cap);
-  void append_corner(const Blend& blend, const kinematics::Element& before, const kinematics::Element& after);
-  void append_corner(const SmoothBlend& blend, const kinematics::Element& before, const kinematics::Element& after);
-  const Stretch* next_determined();
-  void forget_some();
-  void forget_tracks();
-  void hand_out(int spans);
+  void take_elements() {
+    while (rounder_.has_more()) rounder_.take_next(machine_, times_);
+  }
 
   kinematics::Machine machine_;
-  kinematics::Splitter splitter_;
-  kinematics::Element last_;  ///< Last element; its end is final when the next element or a rest is known.
-  bool has_last_ = false;
-  geometry::Pose end_;  ///< End of the last move pushed.
-  bool has_end_ = false;
-
-  Profile profile_;                          ///< Profile of machines whose jerk is not limited.
-  std::vector<Track> tracks_;                ///< Tracks of the profile's spans.
-  std::size_t handed_out_ = 0;               ///< Number of tracks whose stretches are all returned.
-  int spans_out_ = 0;                        ///< Number of returned spans of the next track.
-  bool half_out_ = false;                    ///< Whether the first half of a shared blend is returned.
-  std::optional<JerkLimiter> jerk_limiter_;  ///< Profile of machines whose jerk is limited; absent on others.
-  Stretch stretch_;                          ///< Stretch to which next() returns a pointer.
+  Rounder rounder_;
+  PathTimes times_;
 };
 
 }  // namespace isocnc::motion

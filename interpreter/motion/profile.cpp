@@ -40,15 +40,20 @@ void Profile::append_line(double begin, double length, const kinematics::LineLim
 }
 
 void Profile::append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits) {
-  SpeedSpan& span = add(SpanKind::Curve, begin, length, std::min(limits.cap(), cap));
+  append_curve(begin, length, std::min(limits.cap(), cap), limits.bounds(kinematics::Direction::Forward),
+               limits.bounds(kinematics::Direction::Backward));
+}
+
+void Profile::append_curve(double begin, double length, double cap, std::span<const kinematics::CurveBound> forward,
+                           std::span<const kinematics::CurveBound> backward) {
+  SpeedSpan& span = add(SpanKind::Curve, begin, length, cap);
   span.bounds = first_bound_ + bounds_.size();
-  const auto keep = [&](kinematics::Direction direction) {
-    const std::span<const kinematics::CurveBound> bounds = limits.bounds(direction);
+  const auto keep = [&](std::span<const kinematics::CurveBound> bounds) {
     bounds_.insert(bounds_.end(), bounds.begin(), bounds.end());
     return static_cast<std::uint8_t>(bounds.size());
   };
-  span.forward_count = keep(kinematics::Direction::Forward);
-  span.backward_count = keep(kinematics::Direction::Backward);
+  span.forward_count = keep(forward);
+  span.backward_count = keep(backward);
 }
 
 void Profile::append_level(double length, double cap) { add(SpanKind::Level, 0, length, cap); }

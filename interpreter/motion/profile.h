@@ -48,6 +48,9 @@ class Profile {
   void append_line(double begin, double length, const kinematics::LineLimits& limits);
   /// Appends a span of a curve. `cap`: maximum of x, in addition to the cap of the limits.
   void append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits);
+  /// The same with the bounds of the limits, and with their cap in `cap`.
+  void append_curve(double begin, double length, double cap, std::span<const kinematics::CurveBound> forward,
+                    std::span<const kinematics::CurveBound> backward);
   /// Appends a span on which the speed is constant. `cap`: maximum of x.
   void append_level(double length, double cap);
   /// Appends a span that is a given phase. Requires that the machine is at rest, and comes to rest after the last one

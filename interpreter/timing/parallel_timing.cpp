@@ -1,6 +1,7 @@
 #include "interpreter/timing/parallel_timing.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "interpreter/kinematics/element.h"
@@ -15,15 +16,36 @@ static constexpr std::size_t kMostRequests = 256;
 /// Maximum number of lines into which an arc of a part is split (kinematics::segment_count). A part keeps their
 /// stretches.
 static constexpr int kMostSegments = 64;
+/// Number of requests that tell where the path of those after them begins, as far as it depends on them: after two
+/// elements of motion.
+static constexpr std::size_t kRemembered = 4;
 /// Parts that are not yet reported, for each thread: then the caller's thread plans, too. Some hundred KiB each.
 static constexpr std::size_t kPartsAhead = 2;
+
+void ParallelTiming::Requests::reserve(std::size_t count) {
+  requests.reserve(count);
+  moves.reserve(count);  // The requests point to them.
+}
+
+void ParallelTiming::Requests::add(const PlannedRequest& request) {
+  requests.push_back(request);
+  if (request.move != nullptr) requests.back().move = &moves.emplace_back(*request.move);
+}
+
+void ParallelTiming::Requests::clear() {
+  requests.clear();
+  moves.clear();
+}
 
 ParallelTiming::ParallelTiming(const TimedMachine& machine, int jobs, TimingListeners listeners)
     : machine_(&machine),
       jobs_(std::max(jobs, 1)),
+      makes_paths_ahead_(!kinematics::limits_jerk(machine.motion)),
       reader_(machine),
       times_(std::move(listeners), machine.home, 0),
-      chain_(std::make_shared<Chain>(machine.motion, 0)) {}
+      chain_(std::make_shared<Chain>(machine.motion, 0)) {
+  last_in_chain_.reserve(kRemembered);
+}
 
 ParallelTiming::~ParallelTiming() {
   {
@@ -40,10 +62,8 @@ void ParallelTiming::complete_last() {
   if (request.move != nullptr && kinematics::segment_count(machine_->motion, *request.move) > kMostSegments)
     return plan_alone(request);
   if (!filling_) filling_ = new_part(request.number);
-  std::vector<PlannedRequest>& requests = filling_->requests;
-  requests.push_back(request);
-  if (request.move != nullptr) requests.back().move = &filling_->moves.emplace_back(*request.move);
-  if (requests.size() < (request.rests ? kFewRequests : kMostRequests)) return;
+  filling_->requests.add(request);
+  if (filling_->requests.requests.size() < (request.rests ? kFewRequests : kMostRequests)) return;
   if (request.rests) chain_.reset();
   hand_over(kPartsAhead * static_cast<std::size_t>(jobs_));
 }
@@ -55,21 +75,23 @@ void ParallelTiming::plan_alone(const PlannedRequest& request) {
   report_planned(0);
   if (!chain_) begin_chain(request.number);
   chain_->planner.take({request.number, &move, request.wait, request.rests}, times_);
+  knows_last_in_chain_ = false;
 }
 
 void ParallelTiming::begin_chain(std::uint64_t first) {
   chain_ = std::make_shared<Chain>(machine_->motion, first);
   parts_in_chain_ = 0;
+  last_in_chain_.clear();
+  knows_last_in_chain_ = true;
 }
 
 /// A part that continues the chain, or begins one at rest if there is none.
 std::unique_ptr<ParallelTiming::PlannedPart> ParallelTiming::new_part(std::uint64_t first) {
   std::unique_ptr<PlannedPart> part;
   if (emptied_.empty()) {
-    part = std::make_unique<PlannedPart>();
-    part->keeps_stretches = times_.wants_stretches();
+    part = std::make_unique<PlannedPart>(times_.wants_stretches());
     part->requests.reserve(kMostRequests);
-    part->moves.reserve(kMostRequests);  // The requests point to them.
+    part->before.reserve(kRemembered);
   } else {
     part = std::move(emptied_.back());
     emptied_.pop_back();
@@ -77,13 +99,23 @@ std::unique_ptr<ParallelTiming::PlannedPart> ParallelTiming::new_part(std::uint6
   if (!chain_) begin_chain(first);
   part->chain = chain_;
   part->number_in_chain = parts_in_chain_++;
+  for (const PlannedRequest& request : last_in_chain_.requests) part->before.add(request);
+  part->path_state = knows_last_in_chain_ && makes_paths_ahead_ ? PathState::Unmade : PathState::Unknown;
   return part;
+}
+
+void ParallelTiming::remember_last(const Requests& requests) {
+  last_in_chain_.clear();
+  knows_last_in_chain_ = true;
+  const std::span<const PlannedRequest> all = requests.requests;
+  for (const PlannedRequest& request : all.last(std::min(all.size(), kRemembered))) last_in_chain_.add(request);
 }
 
 /// Hands over the part that is filled, and reports those that are planned until so many are left.
 void ParallelTiming::hand_over(std::size_t left) {
   if (!filling_->is_last && !std::exchange(has_started_, true))
     threads_ = threads::start_threads(jobs_ - 1, [this] { help(); });
+  if (chain_) remember_last(filling_->requests);
   {
     const std::lock_guard lock(mutex_);
     parts_.push_back(std::move(filling_));
@@ -104,36 +136,65 @@ void ParallelTiming::finish() {
   has_ended_ = true;
 }
 
-/// The first part that is not planned and whose chain has come to it; null if there is none.
-ParallelTiming::PlannedPart* ParallelTiming::first_plannable() {
+/// Whether the chain of a part has come to it, and no thread works on it.
+bool ParallelTiming::is_plannable(const PlannedPart& part) {
+  return !part.is_planned && !part.chain->is_planning && part.chain->next == part.number_in_chain &&
+         part.path_state != PathState::Making;
+}
+
+/// The first part that can be planned, or whose path can be made meanwhile; null if there is none.
+ParallelTiming::PlannedPart* ParallelTiming::first_to_do() {
+  PlannedPart* unmade = nullptr;
   for (const std::unique_ptr<PlannedPart>& part : parts_) {
-    const Chain& chain = *part->chain;
-    if (!part->is_planned && !chain.is_planning && chain.next == part->number_in_chain) return part.get();
+    if (is_plannable(*part)) return part.get();
+    const bool is_waiting = part->number_in_chain > part->chain->next;
+    if (unmade == nullptr && is_waiting && part->path_state == PathState::Unmade) unmade = part.get();
   }
-  return nullptr;
+  return unmade;
 }
 
 void ParallelTiming::help() {
   std::unique_lock lock(mutex_);
   while (true) {
     PlannedPart* part = nullptr;
-    changed_.wait(lock, [&] { return ends_ || (part = first_plannable()) != nullptr; });
+    changed_.wait(lock, [&] { return ends_ || (part = first_to_do()) != nullptr; });
     if (ends_) return;
-    plan(lock, *part);
+    work_on(lock, *part);
   }
+}
+
+void ParallelTiming::work_on(std::unique_lock<std::mutex>& lock, PlannedPart& part) {
+  if (is_plannable(part)) {
+    plan(lock, part);
+  } else {
+    make_path(lock, part);
+  }
+  changed_.notify_all();
 }
 
 void ParallelTiming::plan(std::unique_lock<std::mutex>& lock, PlannedPart& part) {
   Chain& chain = *part.chain;
   chain.is_planning = true;
+  const bool is_made = part.path_state == PathState::Made;
   lock.unlock();
-  for (const PlannedRequest& request : part.requests) chain.planner.take(request, part);
+  if (is_made) {
+    chain.planner.take(part.requests.requests, part.path, machine_->motion, part);
+  } else {
+    for (const PlannedRequest& request : part.requests.requests) chain.planner.take(request, part);
+  }
   if (part.is_last) chain.planner.finish(part);
   lock.lock();
   chain.is_planning = false;
   ++chain.next;
   part.is_planned = true;
-  changed_.notify_all();
+}
+
+void ParallelTiming::make_path(std::unique_lock<std::mutex>& lock, PlannedPart& part) {
+  part.path_state = PathState::Making;
+  lock.unlock();
+  const bool is_made = part.path.make(machine_->motion, part.before.requests, part.requests.requests);
+  lock.lock();
+  part.path_state = is_made ? PathState::Made : PathState::Unknown;
 }
 
 void ParallelTiming::report_planned(std::size_t left) {
@@ -147,10 +208,10 @@ void ParallelTiming::report_planned(std::size_t left) {
       report(*part);
       emptied_.push_back(std::move(part));
       lock.lock();
-    } else if (PlannedPart* const part = first_plannable()) {
-      plan(lock, *part);
+    } else if (PlannedPart* const part = first_to_do()) {
+      work_on(lock, *part);
     } else {
-      changed_.wait(lock, [&] { return is_first_planned() || first_plannable() != nullptr; });
+      changed_.wait(lock, [&] { return is_first_planned() || first_to_do() != nullptr; });
     }
   }
 }
@@ -174,7 +235,7 @@ void ParallelTiming::report(PlannedPart& part) {
   part.chain.reset();
   part.is_planned = false;
   part.requests.clear();
-  part.moves.clear();
+  part.before.clear();
   part.stretches.clear();
   part.times.clear();
   part.rests.clear();

@@ -11,6 +11,7 @@
 #include "interpreter/timing/event_times.h"
 #include "interpreter/timing/request_planner.h"
 #include "interpreter/timing/request_reader.h"
+#include "interpreter/timing/rounded_requests.h"
 
 namespace isocnc::timing {
 
@@ -18,7 +19,8 @@ namespace isocnc::timing {
 ///
 /// The caller's thread reads the events and calls the listeners. What it has read is cut into parts: where the machine
 /// rests, if there is such a place in time, so that the next part need not wait for this one. Each thread plans the
-/// first part that need not wait; the caller's does so while many parts are ahead of the listeners.
+/// first part that need not wait; where all must, it makes the path of one, which needs only the moves just before it.
+/// The caller's thread does so, too, while many parts are ahead of the listeners.
 class ParallelTiming : private RequestReader::Receiver {
  public:
   /// `jobs`: number of threads with the caller's. With 1 the listeners are called as soon as the times are known.
@@ -55,13 +57,35 @@ class ParallelTiming : private RequestReader::Receiver {
     bool is_planning = false;  ///< A thread plans it.
   };
 
+  /// Requests in a row, with copies of their moves.
+  struct Requests {
+    std::vector<PlannedRequest> requests;
+    std::vector<kinematics::Move> moves;
+
+    void reserve(std::size_t count);
+    void add(const PlannedRequest& request);
+    void clear();
+  };
+
+  /// What is done about the path of a part before its turn to be planned.
+  enum class PathState : std::uint8_t {
+    Unmade,
+    Making,  ///< By a thread.
+    Made,
+    Unknown,  ///< It depends on more than is known.
+  };
+
   struct PlannedPart {
+    explicit PlannedPart(bool wants_stretches) : path(wants_stretches), keeps_stretches(wants_stretches) {}
+
     std::shared_ptr<Chain> chain;
     std::uint64_t number_in_chain = 0;
     bool is_last = false;  ///< Whether the run ends with it.
-    std::vector<PlannedRequest> requests;
-    std::vector<kinematics::Move> moves;  ///< Of the requests.
-    bool keeps_stretches = false;  ///< Else only their times: passing a stretch on takes longer than planning it.
+    Requests requests;
+    Requests before;  ///< The last requests before it in its chain.
+    PathState path_state = PathState::Unmade;
+    RoundedRequests path;  ///< If it is made.
+    bool keeps_stretches;  ///< Else only their times: passing a stretch on takes longer than planning it.
     std::vector<motion::Stretch> stretches;  ///< If they are kept.
     std::vector<StretchTime> times;          ///< If not.
     std::vector<Rest> rests;
@@ -86,8 +110,12 @@ class ParallelTiming : private RequestReader::Receiver {
   void begin_chain(std::uint64_t first);
   void hand_over(std::size_t left);
   void help();
-  PlannedPart* first_plannable();
+  void remember_last(const Requests& requests);
+  static bool is_plannable(const PlannedPart& part);
+  PlannedPart* first_to_do();
+  void work_on(std::unique_lock<std::mutex>& lock, PlannedPart& part);
   void plan(std::unique_lock<std::mutex>& lock, PlannedPart& part);
+  void make_path(std::unique_lock<std::mutex>& lock, PlannedPart& part);
   void report_planned(std::size_t left);
   void report(PlannedPart& part);
   template <class Stretches>
@@ -95,6 +123,7 @@ class ParallelTiming : private RequestReader::Receiver {
 
   const TimedMachine* machine_;
   int jobs_;
+  bool makes_paths_ahead_;  ///< Where jerk is not limited.
   RequestReader reader_;
   EventTimes times_;
   bool has_started_ = false;  ///< Threads have been asked for; the system may have given none.
@@ -102,6 +131,8 @@ class ParallelTiming : private RequestReader::Receiver {
   std::unique_ptr<PlannedPart> filling_;
   std::shared_ptr<Chain> chain_;  ///< Of the part that is being filled; null if that begins at rest.
   std::uint64_t parts_in_chain_ = 0;
+  Requests last_in_chain_;                             ///< The last requests of the chain so far.
+  bool knows_last_in_chain_ = true;                    ///< Else the next part's path is made when it is planned.
   std::vector<std::unique_ptr<PlannedPart>> emptied_;  ///< They keep their memory.
 
   std::mutex mutex_;

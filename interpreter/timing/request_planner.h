@@ -4,19 +4,13 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "interpreter/motion/planner.h"
 #include "interpreter/timing/request_reader.h"
+#include "interpreter/timing/rounded_requests.h"
 
 namespace isocnc::timing {
-
-/// What the planner has to know of a request.
-struct PlannedRequest {
-  std::uint64_t number = 0;
-  const kinematics::Move* move = nullptr;  ///< Null if it is no motion.
-  double wait = 0;                         ///< Seconds at rest after the motion.
-  bool rests = false;                      ///< Whether the machine comes to rest before it.
-};
 
 inline PlannedRequest planned_request(const Request& request) {
   const TimedEvent& timed = request.timed;
@@ -36,16 +30,31 @@ class RequestPlanner {
 
   template <class Out>
   void take(const PlannedRequest& request, Out& out) {
-    const bool is_full = request.number - first_waiting_ >= kMaxWaiting;
+    const bool is_full = is_full_at(request);
     const kinematics::Move* move = request.move;
     std::optional<kinematics::Move> kept;
     if (is_full && move != nullptr) move = &kept.emplace(*move);  // What is reported moves what waits.
+    if (is_full) last_forced_rest_ = request.number;
     if (is_full || request.rests) come_to_rest(request.number, out);
     if (request.rests) first_waiting_ = request.number + 1;
     if (move == nullptr) return;
     planner_.push(*move);
     if (request.wait > 0) planner_.rest(request.wait);
     hand_over(out);
+  }
+
+  /// Does what take() of each of these requests does, by their path.
+  template <class Out>
+  void take(std::span<const PlannedRequest> requests, const RoundedRequests& rounded,
+            const kinematics::Machine& machine, Out& out) {
+    std::size_t i = 0;
+    if (!last_forced_rest_ || *last_forced_rest_ < rounded.first_number()) {
+      motion::RoundedPathReader path = rounded.reader();
+      for (; i < requests.size() && !is_full_at(requests[i]); ++i) take(requests[i], i, rounded, path, out);
+      planner_.go_on_from(i == requests.size() ? rounded.rounder_after()
+                                               : rounded.rounder_before(machine, requests, i));
+    }
+    for (; i < requests.size(); ++i) take(requests[i], out);
   }
 
   /// Comes to rest after all requests.
@@ -62,6 +71,23 @@ class RequestPlanner {
   /// Maximum number of requests that wait for their times; no control looks ahead so far. Then the machine is assumed
   /// to stop, so that memory does not grow with the program.
   static constexpr std::uint64_t kMaxWaiting = 32768;
+
+  bool is_full_at(const PlannedRequest& request) const { return request.number - first_waiting_ >= kMaxWaiting; }
+
+  /// The next request, the `i`-th one of `rounded`.
+  template <class Out>
+  void take(const PlannedRequest& request, std::size_t i, const RoundedRequests& rounded,
+            motion::RoundedPathReader& path, Out& out) {
+    if (request.rests) {
+      planner_.take_rounded(path, rounded.end_of_rest(i));
+      hand_over(out);
+      out.come_to_rest(request.number);
+      first_waiting_ = request.number + 1;
+    }
+    if (request.move == nullptr) return;
+    planner_.take_rounded(path, rounded.end_of_motion(i));
+    hand_over(out);
+  }
 
   template <class Out>
   void hand_over(Out& out) {
@@ -80,7 +106,8 @@ class RequestPlanner {
   }
 
   motion::Planner planner_;
-  std::uint64_t first_waiting_;  ///< Number of the first request whose times are not known.
+  std::uint64_t first_waiting_;                    ///< Number of the first request whose times are not known.
+  std::optional<std::uint64_t> last_forced_rest_;  ///< Request before which the machine was last assumed to stop.
 };
 
 }  // namespace isocnc::timing

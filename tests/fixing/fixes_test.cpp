@@ -192,6 +192,16 @@ TEST(ArcFixes, OfManyCentersAreMadeAtOnce) {
   EXPECT_TRUE(codes_of(fixed(text, true)).empty());
 }
 
+/// Of a mistake that is folded over two lines, a G49 above the second one mends that line alone.
+TEST(FixText, SaysThatItHasFixedSomethingWhereTheTextChanges) {
+  const selection::Selection selection;
+  const rules::CheckSetup setup;
+  const std::string text = "M06 T101001\nG00 X10\nG02 C10 F1000\nG01 C20\nM02\n";
+  const FixedText fixed = fix_text(text, {.selection = selection, .setup = setup, .unsafe = true});
+  EXPECT_NE(fixed.text, text);
+  EXPECT_EQ(fixed.fixed, 1u);
+}
+
 /// Arcs are mended by the tolerance of the machine: up to ten times as far, and to within half of it.
 TEST(ArcFixes, GoByTheToleranceOfTheMachine) {
   const auto mended = [](double tolerance, const std::string& arc) {

@@ -39,11 +39,17 @@ static std::string events_of(std::string_view text) {
 }
 
 /// The codes on each line. Of a line that is wrong on several paths, the order of its words decides which of them is
-/// reported, and whether the paths report the same one.
+/// reported, and whether the paths report the same one: where an IF cannot be read, only that is reported, so that
+/// other lines are not compared.
 static std::vector<std::uint64_t> findings_of(std::string_view text) {
+  using namespace dialect::literals;
+  const std::vector<check::LocatedFinding> found = check::check_text(text, {}).findings;
+  const auto is_unreadable_if = [](const check::LocatedFinding& it) { return it.finding.id == "if-malformed"_diag; };
+  const bool has_unreadable_if = std::any_of(found.begin(), found.end(), is_unreadable_if);
   std::vector<std::uint64_t> all;
-  for (const check::LocatedFinding& located : check::check_text(text, {}).findings)
-    all.push_back(located.line * 1'000 + static_cast<std::uint64_t>(located.finding.id));
+  for (const check::LocatedFinding& located : found)
+    if (!has_unreadable_if || is_unreadable_if(located))
+      all.push_back(located.line * 1'000 + static_cast<std::uint64_t>(located.finding.id));
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -18,7 +18,9 @@ namespace {
 /// All that the listeners are told, with each number to its last bit.
 class Log {
  public:
-  TimingListeners listeners() {
+  /// Those who want times alone are served in another way.
+  TimingListeners listeners(bool want_stretches) {
+    if (!want_stretches) return {.event = [this](const TimedEvent& timed) { add(timed); }, .stretch = {}};
     return {.event = [this](const TimedEvent& timed) { add(timed); },
             .stretch =
                 [this](const motion::Stretch& stretch, const TimedEvent& timed) {
@@ -66,26 +68,27 @@ void run_through(std::string_view program, const TimedMachine& machine, Course& 
   log.add_end(course.time(), course.joints());
 }
 
-std::string in_one_thread(std::string_view program, const TimedMachine& machine) {
+std::string in_one_thread(std::string_view program, const TimedMachine& machine, bool wants_stretches) {
   Log log;
-  Timing timing(machine, log.listeners());
+  Timing timing(machine, log.listeners(wants_stretches));
   run_through(program, machine, timing, log);
   return log.text();
 }
 
-std::string with_jobs(int jobs, std::string_view program, const TimedMachine& machine) {
+std::string with_jobs(int jobs, std::string_view program, const TimedMachine& machine, bool wants_stretches) {
   Log log;
-  ParallelTiming timing(machine, jobs, log.listeners());
+  ParallelTiming timing(machine, jobs, log.listeners(wants_stretches));
   run_through(program, machine, timing, log);
   return log.text();
 }
 
 /// `at_least`: lines of the log, so that the program says as much as its writer thinks.
-void expect_the_same(std::string_view program, const TimedMachine& machine, std::size_t at_least) {
-  const std::string expected = in_one_thread(program, machine);
+void expect_the_same(std::string_view program, const TimedMachine& machine, bool wants_stretches,
+                     std::size_t at_least) {
+  const std::string expected = in_one_thread(program, machine, wants_stretches);
   ASSERT_GE(std::count(expected.begin(), expected.end(), '\n'), at_least) << expected.substr(0, 2000);
   for (const int jobs : {1, 2, 3, 8}) {
-    const std::string found = with_jobs(jobs, program, machine);
+    const std::string found = with_jobs(jobs, program, machine, wants_stretches);
     const auto [a, b] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
     const auto around = [](const std::string& log, std::size_t at) {
       return log.substr(at - std::min<std::size_t>(at, 300), 600);
@@ -95,6 +98,11 @@ void expect_the_same(std::string_view program, const TimedMachine& machine, std:
                                    << around(expected, static_cast<std::size_t>(a - expected.begin())) << "\nprogram\n"
                                    << program.substr(0, 1000);
   }
+}
+
+void expect_the_same(std::string_view program, const TimedMachine& machine, std::size_t at_least) {
+  expect_the_same(program, machine, true, at_least);
+  if (!testing::Test::HasFatalFailure()) expect_the_same(program, machine, false, 0);
 }
 
 /// Many sections, so that parts are cut at rests and within motion.
