@@ -1,7 +1,6 @@
 #include "interpreter/timing/parallel_timing.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "interpreter/kinematics/element.h"
@@ -16,8 +15,7 @@ static constexpr std::size_t kMostRequests = 256;
 /// Maximum number of lines into which an arc of a part is split (kinematics::segment_count). A part keeps their
 /// stretches.
 static constexpr int kMostSegments = 64;
-/// Number of requests that tell where the path of those after them begins, as far as it depends on them: after two
-/// elements of motion.
+/// Number of motions and rests that tell where the path of those after them begins: it depends on two elements.
 static constexpr std::size_t kRemembered = 4;
 /// Parts that are not yet reported, for each thread: then the caller's thread plans, too. Some hundred KiB each.
 static constexpr std::size_t kPartsAhead = 2;
@@ -104,18 +102,29 @@ std::unique_ptr<ParallelTiming::PlannedPart> ParallelTiming::new_part(std::uint6
   return part;
 }
 
-void ParallelTiming::remember_last(const Requests& requests) {
+/// Whether the path depends on a request: on a motion, or a rest.
+static bool shapes_path(const PlannedRequest& request) { return request.move != nullptr || request.rests; }
+
+void ParallelTiming::remember_last(const std::vector<PlannedRequest>& requests) {
+  std::size_t found = 0;
+  std::size_t first = requests.size();
+  for (std::size_t i = requests.size(); i-- > 0 && found < kRemembered;) {
+    if (!shapes_path(requests[i])) continue;
+    first = i;
+    ++found;
+  }
+  if (found == 0) return;  // What is remembered still is the last of them.
   last_in_chain_.clear();
   knows_last_in_chain_ = true;
-  const std::span<const PlannedRequest> all = requests.requests;
-  for (const PlannedRequest& request : all.last(std::min(all.size(), kRemembered))) last_in_chain_.add(request);
+  for (std::size_t i = first; i < requests.size(); ++i)
+    if (shapes_path(requests[i])) last_in_chain_.add(requests[i]);
 }
 
 /// Hands over the part that is filled, and reports those that are planned until so many are left.
 void ParallelTiming::hand_over(std::size_t left) {
   if (!filling_->is_last && !std::exchange(has_started_, true))
     threads_ = threads::start_threads(jobs_ - 1, [this] { help(); });
-  if (chain_) remember_last(filling_->requests);
+  if (chain_) remember_last(filling_->requests.requests);
   {
     const std::lock_guard lock(mutex_);
     parts_.push_back(std::move(filling_));

@@ -82,7 +82,7 @@ class ParallelTiming : private RequestReader::Receiver {
     std::uint64_t number_in_chain = 0;
     bool is_last = false;  ///< Whether the run ends with it.
     Requests requests;
-    Requests before;  ///< The last requests before it in its chain.
+    Requests before;  ///< The last motions and rests before it in its chain.
     PathState path_state = PathState::Unmade;
     RoundedRequests path;  ///< If it is made.
     bool keeps_stretches;  ///< Else only their times: passing a stretch on takes longer than planning it.
@@ -110,7 +110,7 @@ class ParallelTiming : private RequestReader::Receiver {
   void begin_chain(std::uint64_t first);
   void hand_over(std::size_t left);
   void help();
-  void remember_last(const Requests& requests);
+  void remember_last(const std::vector<PlannedRequest>& requests);
   static bool is_plannable(const PlannedPart& part);
   PlannedPart* first_to_do();
   void work_on(std::unique_lock<std::mutex>& lock, PlannedPart& part);
@@ -131,7 +131,7 @@ class ParallelTiming : private RequestReader::Receiver {
   std::unique_ptr<PlannedPart> filling_;
   std::shared_ptr<Chain> chain_;  ///< Of the part that is being filled; null if that begins at rest.
   std::uint64_t parts_in_chain_ = 0;
-  Requests last_in_chain_;                             ///< The last requests of the chain so far.
+  Requests last_in_chain_;                             ///< The last motions and rests of the chain so far.
   bool knows_last_in_chain_ = true;                    ///< Else the next part's path is made when it is planned.
   std::vector<std::unique_ptr<PlannedPart>> emptied_;  ///< They keep their memory.
 

@@ -25,8 +25,9 @@ class RoundedRequests {
  public:
   explicit RoundedRequests(bool keeps_paths) : path_(keeps_paths) {}
 
-  /// Makes the path of `requests`. `before`: the last requests before them; none if these are the first after a rest.
-  /// Returns false if that is too few to tell how the path goes on from there: then nothing else may be called.
+  /// Makes the path of `requests`. `before`: the last motions and rests before them; none if these are the first
+  /// requests. Returns false if that is too few to tell how the path goes on from there: then nothing else may be
+  /// called.
   bool make(const kinematics::Machine& machine, std::span<const PlannedRequest> before,
             std::span<const PlannedRequest> requests);
 
