@@ -32,6 +32,7 @@ void RoundedPath::clear() {
 static const kinematics::Path kNoPath;
 
 void RoundedPathReader::hand_on(std::size_t end, const kinematics::Machine& machine, PathTimes& times) {
+  times.begin_element();  // Which frees what is past.
   for (; step_ < end; ++step_) {
     switch (path_->steps_[step_]) {
       case RoundedPath::RoundedStep::Line: {

@@ -48,28 +48,31 @@ class RequestList {
     }
   }
 
-  std::string planned(const kinematics::Machine& machine) const {
+  std::string planned(const kinematics::Machine& machine, std::size_t& memory) const {
     RequestPlanner planner(machine);
     PlanLog log;
     for (const PlannedRequest& request : requests_) planner.take(request, log);
+    memory = planner.memory();
     planner.finish(log);
     return log.text;
   }
 
-  /// In parts of this size, of which all but each third have their path made ahead. Counts these.
-  std::string planned_in_parts(const kinematics::Machine& machine, std::size_t size, int& made) const {
+  /// In parts of this size, of which nearly all have their path made ahead. Counts these.
+  std::string planned_in_parts(const kinematics::Machine& machine, std::size_t size, int& made,
+                               std::size_t& memory) const {
     RequestPlanner planner(machine);
     PlanLog log;
     const std::span<const PlannedRequest> all = requests_;
     for (std::size_t begin = 0; begin < all.size(); begin += size) {
       const std::span<const PlannedRequest> part = all.subspan(begin, std::min(size, all.size() - begin));
       RoundedRequests path(false);
-      if (begin / size % 3 != 2 && path.make(machine, last_before(begin), part)) {
+      if (begin / size % 30 != 2 && path.make(machine, last_before(begin), part)) {
         planner.take(part, path, machine, log);
         ++made;
       } else {
         for (const PlannedRequest& request : part) planner.take(request, log);
       }
+      memory = std::max(memory, planner.memory());
     }
     planner.finish(log);
     return log.text;
@@ -94,11 +97,14 @@ class RequestList {
 };
 
 void expect_the_same_in_parts(const RequestList& requests, const kinematics::Machine& machine) {
-  const std::string expected = requests.planned(machine);
+  std::size_t memory = 0;
+  const std::string expected = requests.planned(machine, memory);
   for (const std::size_t size : {7U, 250U, 256U}) {
     int made = 0;
-    const std::string found = requests.planned_in_parts(machine, size, made);
+    std::size_t most = 0;
+    const std::string found = requests.planned_in_parts(machine, size, made, most);
     EXPECT_GT(made, 20) << size;
+    EXPECT_LE(most, 2 * memory + 1'000'000) << size;
     const auto [a, b] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
     ASSERT_TRUE(found == expected) << "parts of " << size << ":\n"
                                    << std::string(b, std::min(b + 200, found.end())) << "\nexpected\n"
