@@ -44,9 +44,6 @@ class PathTimes {
   void append_line(double begin, double length, const kinematics::LineLimits& limits) {
     profile_.append_line(begin, length, limits);
   }
-  void append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits) {
-    profile_.append_curve(begin, length, cap, limits);
-  }
   void append_curve(double begin, double length, double cap, std::span<const kinematics::CurveBound> forward,
                     std::span<const kinematics::CurveBound> backward) {
     profile_.append_curve(begin, length, cap, forward, backward);

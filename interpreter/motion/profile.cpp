@@ -39,11 +39,6 @@ void Profile::append_line(double begin, double length, const kinematics::LineLim
   span.fall = limits.fall;
 }
 
-void Profile::append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits) {
-  append_curve(begin, length, std::min(limits.cap(), cap), limits.bounds(kinematics::Direction::Forward),
-               limits.bounds(kinematics::Direction::Backward));
-}
-
 void Profile::append_curve(double begin, double length, double cap, std::span<const kinematics::CurveBound> forward,
                            std::span<const kinematics::CurveBound> backward) {
   SpeedSpan& span = add(SpanKind::Curve, begin, length, cap);

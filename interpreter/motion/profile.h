@@ -46,9 +46,7 @@ class Profile {
   Profile();
 
   void append_line(double begin, double length, const kinematics::LineLimits& limits);
-  /// Appends a span of a curve. `cap`: maximum of x, in addition to the cap of the limits.
-  void append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits);
-  /// The same with the bounds of the limits, and with their cap in `cap`.
+  /// Appends a span of a curve, with the bounds of its CurveLimits. `cap`: maximum of x, by these and by the feed.
   void append_curve(double begin, double length, double cap, std::span<const kinematics::CurveBound> forward,
                     std::span<const kinematics::CurveBound> backward);
   /// Appends a span on which the speed is constant. `cap`: maximum of x.

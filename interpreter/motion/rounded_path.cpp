@@ -1,19 +1,14 @@
 #include "interpreter/motion/rounded_path.h"
 
-#include <algorithm>
-
 namespace isocnc::motion {
 
-void RoundedPath::append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits) {
-  const auto keep = [&](kinematics::Direction direction) {
-    const std::span<const kinematics::CurveBound> bounds = limits.bounds(direction);
-    bounds_.insert(bounds_.end(), bounds.begin(), bounds.end());
-    return static_cast<std::uint8_t>(bounds.size());
-  };
-  const std::uint8_t forward_count = keep(kinematics::Direction::Forward);
-  const std::uint8_t backward_count = keep(kinematics::Direction::Backward);
+void RoundedPath::append_curve(double begin, double length, double cap, std::span<const kinematics::CurveBound> forward,
+                               std::span<const kinematics::CurveBound> backward) {
+  bounds_.insert(bounds_.end(), forward.begin(), forward.end());
+  bounds_.insert(bounds_.end(), backward.begin(), backward.end());
   steps_.push_back(RoundedStep::Curve);
-  curves_.push_back({begin, length, std::min(limits.cap(), cap), forward_count, backward_count});
+  curves_.push_back(
+      {begin, length, cap, static_cast<std::uint8_t>(forward.size()), static_cast<std::uint8_t>(backward.size())});
 }
 
 void RoundedPath::clear() {

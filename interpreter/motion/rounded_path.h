@@ -25,7 +25,8 @@ class RoundedPath {
     steps_.push_back(RoundedStep::Line);
     lines_.push_back({begin, length, limits});
   }
-  void append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits);
+  void append_curve(double begin, double length, double cap, std::span<const kinematics::CurveBound> forward,
+                    std::span<const kinematics::CurveBound> backward);
   void append_level(double length, double cap) {
     steps_.push_back(RoundedStep::Level);
     levels_.push_back({length, cap});
@@ -65,7 +66,7 @@ class RoundedPath {
   struct CurveSpan {
     double begin;
     double length;
-    double cap;  ///< With that of the limits.
+    double cap;
     std::uint8_t forward_count;
     std::uint8_t backward_count;
   };

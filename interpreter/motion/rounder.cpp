@@ -234,6 +234,12 @@ class Rounding {
     out_.append_track(element.path, owner_of(element, 1));
   }
 
+  /// Appends a span of a curve. `cap`: maximum of (ds/dt)^2 by the feed.
+  void append_span(double begin, double length, double cap, const kinematics::CurveLimits& limits) {
+    out_.append_curve(begin, length, std::min(limits.cap(), cap), limits.bounds(kinematics::Direction::Forward),
+                      limits.bounds(kinematics::Direction::Backward));
+  }
+
   void append_curve(const kinematics::Element& element) {
     if (out_.limits_jerk()) return append_smooth_curve(element);
     if (element.is_arc()) return append_arc(element);
@@ -249,8 +255,8 @@ class Rounding {
       const kinematics::Derivatives at_to = joints_at(to, i == count ? element.joints_at_end : std::nullopt);
       const kinematics::HigherDerivativeBounds higher =
           kinematics::higher_derivative_bounds(machine_.kinematics, element.path, from, to);
-      out_.append_curve(from, to - from, feed_cap(element),
-                        kinematics::CurveLimits(machine_, at_from, at_to, higher, to - from));
+      append_span(from, to - from, feed_cap(element),
+                  kinematics::CurveLimits(machine_, at_from, at_to, higher, to - from));
       from = to;
       at_from = at_to;
     }
@@ -279,7 +285,7 @@ class Rounding {
     kinematics::Derivatives from = circle.at(begin).derivatives();
     for (int i = 0; i < count; ++i) {
       const kinematics::Derivatives to = turned_on(circle, from, cosine, sine);
-      out_.append_curve(begin + i * length, length, cap, kinematics::CurveLimits(machine_, from, to, higher, length));
+      append_span(begin + i * length, length, cap, kinematics::CurveLimits(machine_, from, to, higher, length));
       from = to;
     }
     return count;
