@@ -33,7 +33,8 @@ class MotionNamer {
 
   void name_motions(const MotionBlock& block, const DifferentPart& part) {
     const RunPair motions{block.a, block.b, runs_.tolerance};
-    StepGroup group{block, part.actions, {}};
+    const ActionRanges whole = before_end(part.actions);
+    StepGroup group{block, whole, {}};
     Vec3 around = part.before;
     for (const MotionStep& step : block.steps) {
       if (!step.is_in_place) {
@@ -42,7 +43,7 @@ class MotionNamer {
       }
       const NamedOfClosing closing = name_group(group, &step);
       group.steps.clear();
-      const ActionRanges at = actions_of(block, step.motions, part.actions);
+      const ActionRanges at = actions_of(block, step.motions, whole);
       changes_.follow_shift(at, step.shift);
       if (step.kind == MotionStep::Kind::Pair) {
         if (closing != NamedOfClosing::Way) name_closing(block, step, at, around);
@@ -110,7 +111,18 @@ class MotionNamer {
     return true;
   }
 
-  /// The actions from the first to the last one of some motions.
+  /// A part without what ends the runs.
+  ActionRanges before_end(ActionRanges at) const {
+    const auto leave_out = [](const RecordedRun& run, std::size_t begin, std::size_t& end) {
+      if (begin < end && run.actions[end - 1].kind == ActionKind::End) --end;
+    };
+    leave_out(runs_.a, at.a_begin, at.a_end);
+    leave_out(runs_.b, at.b_begin, at.b_end);
+    return at;
+  }
+
+  /// The actions from the first to the last one of some motions. Motions of one run alone that the other one would have
+  /// behind its last motion are at the end of `whole` there.
   static ActionRanges actions_of(const MotionBlock& block, const ActionRanges& motions, const ActionRanges& whole) {
     const auto range = [](const std::vector<std::size_t>& firsts, const std::vector<std::size_t>& actions,
                           std::size_t begin, std::size_t end, std::size_t whole_end) {

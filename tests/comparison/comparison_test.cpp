@@ -532,6 +532,12 @@ const ComparisonCase kCases[] = {
      kPlunged + "G02 X50 Y20 I30 J20\nG01 Y80\nG02 X30 Y60 R2\nG01 X7\nM02\n",
      "shape 5|5: another path, up to 28.284 mm away\n"
      "end 7-9|7: ends with ISO030 instead of M02: from here on 0 motions instead of 2\n"},
+    // A motion that one program alone has as its last one is listed before the end.
+    {"MotionBeforeAnotherEnd", kPlunged + "X50 Y60\nX70 Y10\nX90 Y80\nGOTO N99\n",
+     kPlunged + "X70 Y10\nX90 Y80\nX20 Y5\nM02\n",
+     "removed 5|5: removed: 1 motion; the next one takes another path, up to 46.032 mm away\n"
+     "added -|7: added: 1 motion\n"
+     "end 8|8: ends with M02 instead of E003\n"},
 
     // Several at once.
     {"TwoFarApart", kSquare, replaced(square("S12000", "S9000"), "G00 Z40\nM02", "G00 Z30\nM02"),
