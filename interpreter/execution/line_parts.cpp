@@ -115,6 +115,11 @@ static bool has_own_feed(const LineTree& carried, const LineTree& rest) {
   return carried.feed >= 0 && rest.feed < 0 && (rest.is_empty() || rest.motion() != nullptr);
 }
 
+/// Whether the coordinates that are carried have the line's own F behind them, so that they are a block of their own.
+static bool leaves_feed(const LineTree& carried, const LineTree& rest) {
+  return carried.motion() != nullptr && rest.feed >= 0 && rest.motion() == nullptr;
+}
+
 std::optional<SplitLine> SplitLine::split(const LineTree& line, const Lack& lack) {
   const std::size_t count = count_carried(line.words, lack);
   if (count == 0 || cuts_instruction(line, count)) return std::nullopt;
@@ -126,6 +131,7 @@ std::optional<SplitLine> SplitLine::split(const LineTree& line, const Lack& lack
   SplitLine parts(carried, rest);
   const bool is_lone_feed = parts.carried().instructions.empty();
   if (is_lone_feed && has_own_feed(parts.carried(), parts.rest())) return std::nullopt;
+  if (leaves_feed(parts.carried(), parts.rest())) return std::nullopt;
   return parts;
 }
 
