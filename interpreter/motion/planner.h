@@ -26,7 +26,9 @@ namespace isocnc::motion {
 /// next() is called as above. The class has value semantics: a copy is independent.
 class Planner {
  public:
-  explicit Planner(kinematics::Machine machine) : machine_(std::move(machine)), times_(machine_) {}
+  /// `keeps_paths`: whether stretches will be asked for, not their times alone.
+  explicit Planner(kinematics::Machine machine, bool keeps_paths = true)
+      : machine_(std::move(machine)), times_(machine_, keeps_paths) {}
 
   /// Appends a move. A move without length yields no stretch, but its exact stop takes effect. Rapids whose joints move
   /// independently start and end at rest.
@@ -44,15 +46,10 @@ class Planner {
   }
 
   /// Returns the next stretch, or null if the moves pushed so far do not determine it yet. The pointer is valid until
-  /// the next call of a non-const member function.
-  const Stretch* next() {
-    const Stretch* stretch = times_.next();
-    while (!stretch && rounder_.has_more()) {
-      rounder_.take_next(machine_, times_);
-      stretch = times_.next();
-    }
-    return stretch;
-  }
+  /// the next call of a non-const member function. Requires that paths are kept.
+  const Stretch* next() { return next_by(&PathTimes::next); }
+  /// The same without its path and phases, and no such requirement.
+  const StretchTime* next_time() { return next_by(&PathTimes::next_time); }
 
   /// Takes what another Rounder has made of the next moves, or of a rest, up to this end of it. Then go_on_from().
   void take_rounded(RoundedPathReader& path, std::size_t end) { path.hand_on(end, machine_, times_); }
@@ -70,6 +67,17 @@ class Planner {
   double time() const { return times_.time(); }
 
  private:
+  /// What a function of PathTimes returns, as soon as there is enough of the path.
+  template <class Result>
+  const Result* next_by(const Result* (PathTimes::*next)()) {
+    const Result* result = (times_.*next)();
+    while (!result && rounder_.has_more()) {
+      rounder_.take_next(machine_, times_);
+      result = (times_.*next)();
+    }
+    return result;
+  }
+
   void take_elements() {
     while (rounder_.has_more()) rounder_.take_next(machine_, times_);
   }

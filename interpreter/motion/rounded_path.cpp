@@ -23,9 +23,6 @@ void RoundedPath::clear() {
   waits_.clear();
 }
 
-/// Of tracks whose path is not kept.
-static const kinematics::Path kNoPath;
-
 void RoundedPathReader::hand_on(std::size_t end, const kinematics::Machine& machine, PathTimes& times) {
   times.begin_element();  // Which frees what is past.
   for (; step_ < end; ++step_) {
@@ -49,7 +46,11 @@ void RoundedPathReader::hand_on(std::size_t end, const kinematics::Machine& mach
         break;
       }
       case RoundedPath::RoundedStep::Track:
-        times.append_track(path_->keeps_paths_ ? path_->paths_[track_] : kNoPath, path_->owners_[track_]);
+        if (path_->keeps_paths_) {
+          times.append_track(path_->paths_[track_], path_->owners_[track_]);
+        } else {
+          times.append_track(path_->owners_[track_]);
+        }
         ++track_;
         break;
       case RoundedPath::RoundedStep::Phase: {

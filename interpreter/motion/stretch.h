@@ -33,14 +33,18 @@ struct Sample {
   double acceleration = 0;  ///< Acceleration along the tip's path, mm/s^2.
 };
 
+/// How long a stretch takes, and of which move it is.
+struct StretchTime {
+  std::uint64_t tag = 0;   ///< Move::tag of the move.
+  double duration = 0;     ///< s.
+  bool ends_move = false;  ///< Whether this is the last stretch of its move.
+};
+
 /// A piece of path, or a part of one, with its motion in time. The class has value semantics and refers to no other
 /// object, so it can be evaluated at any time. The stretches of a program follow one another without gaps in place, and
 /// without gaps in time except for rests.
-struct Stretch {
-  std::uint64_t tag = 0;        ///< Move::tag of the move.
-  bool ends_move = false;       ///< Whether this is the last stretch of its move.
+struct Stretch : StretchTime {
   double start = 0;             ///< Time since the planner's start, s.
-  double duration = 0;          ///< Sum of the durations of the phases, s.
   kinematics::Path path;        ///< Curve that the phases run along.
   std::array<Phase, 3> phases;  ///< Motion of the path parameter; the first `phase_count` are used.
   int phase_count = 0;

@@ -6,7 +6,7 @@ void EventTimes::begin_first() {
   if (!std::exchange(waiting_.front().has_begun, true)) waiting_.front().request.timed.start = time_;
 }
 
-void EventTimes::take(const StretchTime& time, const motion::Stretch* stretch) {
+void EventTimes::take(const motion::StretchTime& time, const motion::Stretch* stretch) {
   for (; !waiting_.empty() && waiting_.front().request.number < time.tag; report_first()) begin_first();
   if (waiting_.empty()) return;
   begin_first();

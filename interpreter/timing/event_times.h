@@ -18,17 +18,6 @@ struct TimingListeners {
   std::function<void(const motion::Stretch&, const TimedEvent&)> stretch;
 };
 
-/// What a request's times follow from, of a stretch of its motion.
-struct StretchTime {
-  StretchTime() = default;
-  explicit StretchTime(const motion::Stretch& stretch)
-      : tag(stretch.tag), duration(stretch.duration), ends_move(stretch.ends_move) {}
-
-  std::uint64_t tag = 0;
-  double duration = 0;
-  bool ends_move = false;
-};
-
 /// Gives requests the times that a RequestPlanner has found, and reports them, in their order. Each begins where the
 /// one before it ends, to the last bit: so the durations alone decide. A value.
 class EventTimes {
@@ -43,9 +32,9 @@ class EventTimes {
   Request& last() { return waiting_.back().request; }
 
   /// The next stretch of motion.
-  void take(const motion::Stretch& stretch) { take(StretchTime(stretch), &stretch); }
+  void take(const motion::Stretch& stretch) { take(stretch, &stretch); }
   /// The same where no listener wants more.
-  void take(const StretchTime& time) { take(time, nullptr); }
+  void take(const motion::StretchTime& time) { take(time, nullptr); }
   bool wants_stretches() const { return static_cast<bool>(listeners_.stretch); }
   /// Reports all requests before that of the number, and that one too if it asks for the rest.
   void come_to_rest(std::uint64_t number);
@@ -65,7 +54,7 @@ class EventTimes {
     bool has_begun = false;
   };
 
-  void take(const StretchTime& time, const motion::Stretch* stretch);
+  void take(const motion::StretchTime& time, const motion::Stretch* stretch);
   void begin_first();
   void report_first();
 

@@ -41,7 +41,7 @@ ParallelTiming::ParallelTiming(const TimedMachine& machine, int jobs, TimingList
       makes_paths_ahead_(!kinematics::limits_jerk(machine.motion)),
       reader_(machine),
       times_(std::move(listeners), machine.home, 0),
-      chain_(std::make_shared<Chain>(machine.motion, 0)) {
+      chain_(std::make_shared<Chain>(machine.motion, times_.wants_stretches(), 0)) {
   last_in_chain_.reserve(kRemembered);
 }
 
@@ -77,7 +77,7 @@ void ParallelTiming::plan_alone(const PlannedRequest& request) {
 }
 
 void ParallelTiming::begin_chain(std::uint64_t first) {
-  chain_ = std::make_shared<Chain>(machine_->motion, first);
+  chain_ = std::make_shared<Chain>(machine_->motion, times_.wants_stretches(), first);
   parts_in_chain_ = 0;
   last_in_chain_.clear();
   knows_last_in_chain_ = true;

@@ -50,7 +50,8 @@ class ParallelTiming : private RequestReader::Receiver {
 
   /// Plans parts, one after the other, of which the first begins at rest.
   struct Chain {
-    Chain(const kinematics::Machine& machine, std::uint64_t first) : planner(machine, first) {}
+    Chain(const kinematics::Machine& machine, bool keeps_paths, std::uint64_t first)
+        : planner(machine, keeps_paths, first) {}
 
     RequestPlanner planner;
     std::uint64_t next = 0;    ///< Number of the part that is to be planned next, among those of the chain.
@@ -87,17 +88,13 @@ class ParallelTiming : private RequestReader::Receiver {
     RoundedRequests path;  ///< If it is made.
     bool keeps_stretches;  ///< Else only their times: passing a stretch on takes longer than planning it.
     std::vector<motion::Stretch> stretches;  ///< If they are kept.
-    std::vector<StretchTime> times;          ///< If not.
+    std::vector<motion::StretchTime> times;  ///< If not.
     std::vector<Rest> rests;
     bool is_planned = false;
 
-    void take(const motion::Stretch& stretch) {
-      if (keeps_stretches) {
-        stretches.push_back(stretch);
-      } else {
-        times.emplace_back(stretch);
-      }
-    }
+    bool wants_stretches() const { return keeps_stretches; }
+    void take(const motion::Stretch& stretch) { stretches.push_back(stretch); }
+    void take(const motion::StretchTime& time) { times.push_back(time); }
     void come_to_rest(std::uint64_t number) { rests.push_back({number, stretches.size() + times.size()}); }
   };
 

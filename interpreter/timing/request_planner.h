@@ -20,13 +20,13 @@ inline PlannedRequest planned_request(const Request& request) {
 /// Plans requests, from a rest on. How long a stretch takes does not depend on what was before the last rest, not even
 /// in its last bit: so parts of a run that begin at rest can be planned apart from each other.
 ///
-/// What is known goes to an `out`: `take(stretch)` for each stretch of motion, and `come_to_rest(number)` where the
-/// machine is at rest before the request of this number.
+/// What is known goes to an `out`: `take(stretch)` for each stretch of motion, or with its time alone if it does not
+/// `wants_stretches()`, and `come_to_rest(number)` where the machine is at rest before the request of this number.
 class RequestPlanner {
  public:
-  /// `first`: number of the first request.
-  explicit RequestPlanner(const kinematics::Machine& machine, std::uint64_t first = 0)
-      : planner_(machine), first_waiting_(first) {}
+  /// `keeps_paths`: whether an `out` will want stretches. `first`: number of the first request.
+  RequestPlanner(const kinematics::Machine& machine, bool keeps_paths, std::uint64_t first = 0)
+      : planner_(machine, keeps_paths), first_waiting_(first) {}
 
   template <class Out>
   void take(const PlannedRequest& request, Out& out) {
@@ -91,10 +91,17 @@ class RequestPlanner {
 
   template <class Out>
   void hand_over(Out& out) {
-    while (const motion::Stretch* const stretch = planner_.next()) {
-      first_waiting_ = std::max(first_waiting_, stretch->tag + (stretch->ends_move ? 1 : 0));
-      out.take(*stretch);
+    if (out.wants_stretches()) {
+      while (const motion::Stretch* const stretch = planner_.next()) hand_over(*stretch, out);
+    } else {
+      while (const motion::StretchTime* const time = planner_.next_time()) hand_over(*time, out);
     }
+  }
+
+  template <class StretchOrTime, class Out>
+  void hand_over(const StretchOrTime& stretch, Out& out) {
+    first_waiting_ = std::max(first_waiting_, stretch.tag + (stretch.ends_move ? 1 : 0));
+    out.take(stretch);
   }
 
   template <class Out>

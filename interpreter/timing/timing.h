@@ -12,10 +12,10 @@ namespace isocnc::timing {
 class Timing : private RequestReader::Receiver {
  public:
   Timing(const TimedMachine& machine, TimingListeners listeners)
-      : reader_(machine), planner_(machine.motion), times_(std::move(listeners), machine.home, 0) {}
+      : reader_(machine), planner_(machine.motion, true), times_(std::move(listeners), machine.home, 0) {}
   /// Continues from `standing` instead of the program start.
   Timing(const TimedMachine& machine, const Standing& standing)
-      : reader_(machine, standing), planner_(machine.motion), times_({}, standing.tip, standing.time) {}
+      : reader_(machine, standing), planner_(machine.motion, true), times_({}, standing.tip, standing.time) {}
 
   /// Replaces the callbacks. A Timing is a value: a copy runs independently but calls the same callbacks.
   void listen(TimingListeners listeners) { times_.listen(std::move(listeners)); }

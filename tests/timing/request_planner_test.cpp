@@ -12,12 +12,17 @@
 namespace isocnc::timing {
 namespace {
 
-/// All that a RequestPlanner says, with each number to its last bit.
+/// All that a RequestPlanner says of times, with each number to its last bit.
 struct PlanLog {
+  explicit PlanLog(bool stretches) : asks_for_stretches(stretches) {}
+
+  bool asks_for_stretches;
   std::string text;
 
-  void take(const motion::Stretch& stretch) {
-    text += fmt::format("{} {} {:a}\n", stretch.tag, stretch.ends_move, stretch.duration);
+  bool wants_stretches() const { return asks_for_stretches; }
+  void take(const motion::Stretch& stretch) { take(static_cast<const motion::StretchTime&>(stretch)); }
+  void take(const motion::StretchTime& time) {
+    text += fmt::format("{} {} {:a}\n", time.tag, time.ends_move, time.duration);
   }
   void come_to_rest(std::uint64_t number) { text += fmt::format("rest {}\n", number); }
 };
@@ -48,9 +53,9 @@ class RequestList {
     }
   }
 
-  std::string planned(const kinematics::Machine& machine, std::size_t& memory) const {
-    RequestPlanner planner(machine);
-    PlanLog log;
+  std::string planned(const kinematics::Machine& machine, bool stretches, std::size_t& memory) const {
+    RequestPlanner planner(machine, stretches);
+    PlanLog log(stretches);
     for (const PlannedRequest& request : requests_) planner.take(request, log);
     memory = planner.memory();
     planner.finish(log);
@@ -58,14 +63,14 @@ class RequestList {
   }
 
   /// In parts of this size, of which nearly all have their path made ahead. Counts these.
-  std::string planned_in_parts(const kinematics::Machine& machine, std::size_t size, int& made,
+  std::string planned_in_parts(const kinematics::Machine& machine, bool stretches, std::size_t size, int& made,
                                std::size_t& memory) const {
-    RequestPlanner planner(machine);
-    PlanLog log;
+    RequestPlanner planner(machine, stretches);
+    PlanLog log(stretches);
     const std::span<const PlannedRequest> all = requests_;
     for (std::size_t begin = 0; begin < all.size(); begin += size) {
       const std::span<const PlannedRequest> part = all.subspan(begin, std::min(size, all.size() - begin));
-      RoundedRequests path(false);
+      RoundedRequests path(stretches);
       if (begin / size % 30 != 2 && path.make(machine, last_before(begin), part)) {
         planner.take(part, path, machine, log);
         ++made;
@@ -96,19 +101,28 @@ class RequestList {
   std::vector<PlannedRequest> requests_;
 };
 
+void expect_same(const std::string& found, const std::string& expected, const std::string& where) {
+  const auto [a, b] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
+  ASSERT_TRUE(found == expected) << where << ":\n"
+                                 << std::string(b, std::min(b + 200, found.end())) << "\nexpected\n"
+                                 << std::string(a, std::min(a + 200, expected.end()));
+}
+
+/// In one piece and in parts, with stretches and with their times alone.
 void expect_the_same_in_parts(const RequestList& requests, const kinematics::Machine& machine) {
-  std::size_t memory = 0;
-  const std::string expected = requests.planned(machine, memory);
+  std::size_t with_stretches = 0;
+  const std::string expected = requests.planned(machine, true, with_stretches);
+  std::size_t with_times = 0;
+  expect_same(requests.planned(machine, false, with_times), expected, "times alone");
+  EXPECT_LT(with_times, with_stretches);
   for (const std::size_t size : {7U, 250U, 256U}) {
+    const bool stretches = size == 250;
     int made = 0;
     std::size_t most = 0;
-    const std::string found = requests.planned_in_parts(machine, size, made, most);
+    const std::string found = requests.planned_in_parts(machine, stretches, size, made, most);
     EXPECT_GT(made, 20) << size;
-    EXPECT_LE(most, 2 * memory + 1'000'000) << size;
-    const auto [a, b] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
-    ASSERT_TRUE(found == expected) << "parts of " << size << ":\n"
-                                   << std::string(b, std::min(b + 200, found.end())) << "\nexpected\n"
-                                   << std::string(a, std::min(a + 200, expected.end()));
+    EXPECT_LE(most, 2 * with_stretches + 1'000'000) << size;
+    expect_same(found, expected, fmt::format("parts of {}", size));
   }
 }
 
