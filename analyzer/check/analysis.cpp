@@ -8,9 +8,6 @@
 
 namespace isocnc::check {
 
-/// Chunks checked between two calls of `stop`, in about a millisecond.
-static constexpr std::size_t kChunksAtOnce = 64;
-
 Analysis::Analysis(const syntax::Document& document, const rules::CheckSetup& setup)
     : Analysis(document, setup, Unchecked{}) {
   update();
@@ -329,8 +326,15 @@ void Analysis::follow_jumps(const syntax::ChunkChange& change, const std::vector
 // --- Check
 
 bool Analysis::update(const std::function<bool()>& stop) {
-  lines_checked_ = 0;
-  return follow_text(stop) && follow_centers(stop);
+  follow_text();
+  const bool is_done = check_stale(rows_.size(), stop) && follow_centers(stop);
+  has_known_findings_ |= is_done;
+  return is_done;
+}
+
+bool Analysis::update_before(std::size_t line, const std::function<bool()>& stop) {
+  follow_text();
+  return check_stale(line < document_.line_count() ? document_.chunk_of_line(line) : rows_.size(), stop);
 }
 
 /// Whether centers are suspected of counting from the start depends on all arcs of the program. When that changes,
@@ -341,20 +345,23 @@ bool Analysis::follow_centers(const std::function<bool()>& stop) {
   if (suspects == suspects_centers_) return true;
   suspects_centers_ = suspects;
   for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale |= rows_[i].centers.open;
-  return check_stale(stop);
+  return check_stale(rows_.size(), stop);
 }
 
-bool Analysis::check_stale(const std::function<bool()>& stop) {
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    if (rows_[i].is_stale && !check_from(i, before(i), stop)) return false;
+/// Checks the stale chunks before `end`.
+bool Analysis::check_stale(std::size_t end, const std::function<bool()>& stop) {
+  for (std::size_t i = 0; i < end; ++i)
+    if (rows_[i].is_stale && !check_from(i, end, stop)) return false;
   return true;
 }
 
-/// Brings the analysis up to date with the text, without a change of `suspects_centers_`.
-bool Analysis::follow_text(const std::function<bool()>& stop) {
+/// Marks the chunks that are to be checked after a change of the text.
+void Analysis::follow_text() {
+  lines_checked_ = 0;
+  chunks_checked_ = 0;
   const bool is_first = rows_.size() == 0;
   const auto change = rows_.change_to(document_);
-  Frontier at_change = is_first ? Frontier{} : before(change.first);
+  Frontier at_change = is_first ? Checker::start(setup_) : before(change.first);
   std::vector<FlowEvent> old_events;
   for (std::size_t i = change.first; i < change.first + change.removed; ++i) {
     rows_[i].jumps.each([&](const FlowEvent& event) { old_events.push_back(event); });
@@ -368,11 +375,9 @@ bool Analysis::follow_text(const std::function<bool()>& stop) {
   const bool has_changed = change.removed + change.inserted > 0;
   if (has_changed) follow_jumps(change, old_events);
   line_count_ = document_.line_count();
-  if (is_first) return check_from(0, Checker::start(setup_), stop);
   // A jump above may lead elsewhere now. So what is stale is checked from the top: paths that wait for a label which
   // the edit has removed must not be followed beyond it.
   if (has_changed) start_at(change.first, std::move(at_change));
-  return check_stale(stop);
 }
 
 /// Has the lines from a chunk on checked with this frontier before them.
@@ -387,29 +392,30 @@ void Analysis::start_at(std::size_t chunk, Frontier frontier) {
   row.is_stale = true;
 }
 
-/// Checks from a chunk on, as long as the frontier differs from the kept one. False if stopped; the rest is then stale.
-bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop) {
+/// Checks from a chunk to before `end`, as long as the frontier differs from the kept one. False if stopped; the rest
+/// is then stale.
+bool Analysis::check_from(std::size_t chunk, std::size_t end, const std::function<bool()>& stop) {
   Checker checker(setup_, jumps_, suspects_centers_);
-  checker.frontier = std::move(frontier);
+  checker.frontier = before(chunk);
   syntax::ChunkTrees trees;
-  for (std::size_t checked = 1; chunk < rows_.size(); ++chunk) {
+  for (; chunk < end; ++chunk) {
     if (!rows_[chunk].is_stale) {
       if (auto change = change_between(before(chunk), checker.frontier)) {
         chunk = pass_over(chunk, *change);
         if (change->empty()) return true;
         checker.frontier = before(chunk);
         change->apply(checker.frontier);
-        if (chunk == rows_.size()) break;
+        if (chunk >= end) break;
       }
     }
-    if (stop && checked++ % kChunksAtOnce == 0 && stop()) {
+    if (stop && chunks_checked_++ > 0 && stop()) {
       start_at(chunk, std::move(checker.frontier));
       return false;
     }
     trees.read(document_, chunk);
     check_chunk(chunk, trees, checker);
   }
-  end_ = std::move(checker.frontier);
+  start_at(chunk, std::move(checker.frontier));
   return true;
 }
 

@@ -30,10 +30,15 @@ class Analysis {
   struct Unchecked {};
   Analysis(const syntax::Document& document, const rules::CheckSetup& setup, Unchecked);
 
-  /// Brings the analysis up to date with the document, after any edits. It calls `stop` now and then; once that returns
-  /// true, update() may leave the rest to the next call and return false. Until a call returns true, use no other
-  /// member.
+  /// Brings the analysis up to date with the document, after any edits. It calls `stop` after each chunk, 128 lines;
+  /// once that returns true, update() leaves the rest to the next call and returns false. Until a call returns true,
+  /// use frontier_before() as update_before() allows, and the findings as has_known_findings() does.
   bool update(const std::function<bool()>& stop = {});
+  /// The same for frontier_before() a line alone.
+  bool update_before(std::size_t line, const std::function<bool()>& stop = {});
+  /// Whether there are findings while the analysis is behind the text: below the lines checked so far those of an
+  /// earlier text, on the lines that they have now. There are none before the first update has ended.
+  bool has_known_findings() const { return has_known_findings_; }
   Report report() const { return excerpt({}).report; }
   /// The first findings, at most as many as the options allow.
   FirstFindings excerpt(const FirstFindingsOptions& options) const;
@@ -132,9 +137,9 @@ class Analysis {
     std::unique_ptr<Checked> checked = std::make_unique<Checked>();
   };
 
-  bool follow_text(const std::function<bool()>& stop);
+  void follow_text();
   bool follow_centers(const std::function<bool()>& stop);
-  bool check_stale(const std::function<bool()>& stop);
+  bool check_stale(std::size_t end, const std::function<bool()>& stop);
   void start_at(std::size_t chunk, Frontier frontier);
   Frontier before(std::size_t chunk) const;
   void read_jumps(std::size_t chunk, Row& row) const;
@@ -147,7 +152,7 @@ class Analysis {
   JumpNumbers number_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events,
                            const std::vector<FlowEvent>& new_events) const;
   void check_changed_jumps_again(const syntax::ChunkChange& change, const JumpMap& old_jumps, JumpNumbers numbers);
-  bool check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop);
+  bool check_from(std::size_t chunk, std::size_t end, const std::function<bool()>& stop);
   void check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, Checker& checker);
   bool passes(std::size_t chunk, const FrontierChange& change) const;
   void pass_state(std::size_t chunk, std::optional<PassedState>& state);
@@ -162,6 +167,8 @@ class Analysis {
   Frontier end_;
   FindingCounts counts_;
   std::uint64_t lines_checked_ = 0;
+  std::size_t chunks_checked_ = 0;  // By this update.
+  bool has_known_findings_ = false;
 };
 
 }  // namespace isocnc::check

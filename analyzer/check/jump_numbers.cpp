@@ -15,7 +15,11 @@ void JumpNumbers::apply(Frontier& frontier) const {
 
 void JumpNumbers::apply(Outcome& outcome) const {
   for (std::uint32_t& jump : outcome.live_jumps) jump = of(jump);
-  for (Decisions& path : outcome.paths) renumber(path, *this);
+  for (Decisions& path : outcome.paths) {
+    renumber(path, *this);
+    // Such findings may still be shown before their lines are checked again.
+    std::erase_if(path, [](const Decision& decision) { return decision.jump == kReplaced; });
+  }
 }
 
 }  // namespace isocnc::check

@@ -362,11 +362,45 @@ TEST(Analysis, GoesOnWhereItWasStopped) {
   Document document(zigzag(60'000));
   Analysis analysis(document, kSetup, Analysis::Unchecked{});
   int pieces = 1;
-  while (!analysis.update([] { return true; })) {
+  int chunks = 0;
+  while (!analysis.update([&] { return ++chunks % 64 == 0; })) {
     ++pieces;
     document.replace({30'000, 0}, {30'000, 0}, pieces % 2 == 0 ? "G1 X1 X2\n" : "G91\n");
   }
   EXPECT_GE(pieces, 3);
+  EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+}
+
+TEST(Analysis, FirstChecksWhatIsBelowTheEdit) {
+  Document document(zigzag(20'000));
+  document.replace({19'000, 0}, {19'000, 0}, "G1 X1 X2\n");
+  Analysis analysis(document, kSetup);
+  document.replace({500, 0}, {500, 0}, "G93\nG9\n");
+  int chunks = 0;
+  EXPECT_FALSE(analysis.update([&] { return ++chunks == 5; }));
+  EXPECT_LE(analysis.lines_checked(), 800u);
+  const std::vector<LocatedFinding> known = analysis.report().findings;
+  ASSERT_GE(known.size(), 3u);
+  EXPECT_EQ(known[0].line, 501u);                   // What the edit itself has wrong,
+  EXPECT_EQ(known[1].line, 502u);                   // and what it has made wrong below,
+  EXPECT_EQ(known.back().line, 19'002u);            // and what was wrong before,
+  EXPECT_LT(known[known.size() - 2].line, 2'000u);  // but not yet all of it.
+  EXPECT_TRUE(analysis.update());
+  EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+}
+
+TEST(Analysis, ChecksUpToALineAlone) {
+  Document document(zigzag(20'000));
+  Analysis analysis(document, kSetup);
+  document.replace({500, 0}, {500, 0}, "G91\n");
+  for (const std::size_t line : {501u, 700u, 4'000u, 2'000u}) {
+    EXPECT_TRUE(analysis.update_before(line));
+    EXPECT_LE(analysis.lines_checked(), line);
+    EXPECT_EQ(analysis.frontier_before(line), Analysis(document, kSetup).frontier_before(line)) << line;
+  }
+  EXPECT_EQ(analysis.lines_checked(), 0u) << "checked already";
+  EXPECT_TRUE(analysis.update());
+  EXPECT_GT(analysis.lines_checked(), 15'000u);
   EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
 }
 
@@ -490,10 +524,20 @@ void edit_and_compare(std::uint64_t seed, int lines, int edits, int jump_chances
   Analysis analysis(document, kSetup);
   for (int i = 0; i < edits; ++i) {
     for (int k = random.between(1, 3); k > 0; --k) edit_once(random, program, document);
-    analysis.update();
-    const std::vector<std::string> report = support::texts_of(analysis.report());
     const std::string which = fmt::format("seed {}, edit {}", seed, i);
     const Analysis fresh(document, kSetup);
+    if (random.one_in(3)) {
+      int chunks = random.between(1, 6);
+      analysis.update([&] { return --chunks == 0; });
+      const Report known = analysis.has_known_findings() ? analysis.report() : Report();
+      for (const LocatedFinding& located : known.findings) ASSERT_LT(located.line, document.line_count());
+      const std::size_t line = random.below(document.line_count() + 1);
+      ASSERT_TRUE(analysis.update_before(line));
+      ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+      if (random.one_in(3)) continue;  // With the next edit.
+    }
+    analysis.update();
+    const std::vector<std::string> report = support::texts_of(analysis.report());
     ASSERT_EQ(report, support::texts_of(fresh.report())) << which << ", fresh analysis";
     const std::size_t line = random.below(document.line_count() + 1);
     ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
@@ -564,7 +608,8 @@ TEST(AnalysisProperty, JumpsEditedEqualFresh) {
     Analysis analysis(document, kSetup);
     for (int i = 0; i < 25; ++i) {
       for (int k = random.between(1, 3); k > 0; --k) edit_registers(random, document, labels);
-      if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
+      int chunks = random.between(1, 6);
+      if (random.one_in(4) && !analysis.update([&] { return --chunks == 0; })) continue;  // With the next edit.
       analysis.update();
       const Analysis fresh(document, kSetup);
       const std::string which = fmt::format("seed {}, edit {}\n{}", seed, i, lines > 60 ? "" : document.text());
@@ -606,7 +651,8 @@ TEST(AnalysisProperty, CentersEditedEqualFresh) {
             static_cast<std::size_t>(std::count(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
         document.replace({number, 0}, {number + 1, 0}, "");
       }
-      if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
+      int chunks = random.between(1, 6);
+      if (random.one_in(4) && !analysis.update([&] { return --chunks == 0; })) continue;  // With the next edit.
       analysis.update();
       const std::vector<std::string> report = support::texts_of(analysis.report());
       const std::string which = fmt::format("seed {}, edit {}", seed, i);
@@ -790,7 +836,8 @@ TEST(AnalysisProperty, PassedThroughRowsEqualsFresh) {
       const std::size_t line = 127 - random.below(2);
       document.replace({line, 0}, {line, document.text_of_line(line).size()},
                        random.one_in(2) ? "(note)" : lasting_word(random));
-      if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
+      int chunks = random.between(1, 6);
+      if (random.one_in(4) && !analysis.update([&] { return --chunks == 0; })) continue;  // With the next edit.
       analysis.update();
       checked += analysis.lines_checked();
       expect_as_fresh(analysis, document, setup, fmt::format("seed {}, edit {}", seed, i));
@@ -823,7 +870,8 @@ TEST(AnalysisProperty, PassedOnEqualsFresh) {
         line = std::min(line, document.line_count());
         document.replace({line, 0}, {line + random.below(2), 0}, random.one_in(5) ? "" : lasting_word(random) + "\n");
       }
-      if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
+      int chunks = random.between(1, 6);
+      if (random.one_in(4) && !analysis.update([&] { return --chunks == 0; })) continue;  // With the next edit.
       analysis.update();
       expect_as_fresh(analysis, document, setup, fmt::format("seed {}, edit {}", seed, i));
       if (testing::Test::HasFatalFailure()) return;
