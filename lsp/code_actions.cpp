@@ -94,8 +94,7 @@ Json offer(const Snapshot& snapshot, const ActionParams& params) {
 
 Json resolve_action(const Snapshot& snapshot, const ActionResolveParams& params) {
   const Json& data = params.action.at("data");
-  if (data.at("version") != snapshot.version())
-    throw rpc::Error(rpc::ErrorCode::ContentModified, "the document has been edited");
+  if (data.at("version") != snapshot.version()) throw documents::edited();
   Json action = params.action;
   action["edit"] = sources().at(data.at("source"))->edit(snapshot, data.at("action"));
   return action;

@@ -49,14 +49,12 @@ static std::int64_t version_of(const Json& params) {
 }
 
 void DocumentWorker::open(const rpc::Call& call, const Client& client) {
-  finish_edit(
-      [&] {
-        const std::string text = call.message.text(call.params().at("textDocument").at("text"));
-        is_long_ = text.size() >= kLongText;
-        start_progress(client);
-        document_.open(version_of(call.params()), text);
-      },
-      client);
+  make_edit([&] {
+    const std::string text = call.message.text(call.params().at("textDocument").at("text"));
+    is_long_ = text.size() >= kLongText;
+    start_progress(client);
+    document_.open(version_of(call.params()), text);
+  });
 }
 
 static std::vector<ContentChange> changes_in(const rpc::Call& call) {
@@ -67,27 +65,31 @@ static std::vector<ContentChange> changes_in(const rpc::Call& call) {
 }
 
 void DocumentWorker::edit(const rpc::Call& call, const Client& client) {
-  finish_edit([&] { document_.edit(version_of(call.params()), changes_in(call), client.encoding); }, client);
+  make_edit([&] { document_.edit(version_of(call.params()), changes_in(call), client.encoding); });
 }
 
 void DocumentWorker::reconfigure(const Client& client) {
-  finish_edit(
-      [&] {
-        document_.reread_settings();
-        if (client.settings.verifies == protocol::VerifyWhen::Never) document_.drop_run();
-      },
-      client);
+  make_edit([&] {
+    document_.reread_settings();
+    if (client.settings.verifies == protocol::VerifyWhen::Never) document_.drop_run();
+  });
 }
 
-/// Makes the edit. Reports the change to features only after the last of the waiting edits.
-void DocumentWorker::finish_edit(const std::function<void()>& edit, const Client& client) {
+void DocumentWorker::make_edit(const std::function<void()>& edit) {
   try {
     edit();
   } catch (const std::exception& error) {
     log(error);
   }
-  if (--signals_->edits_waiting == 0) report_change(client);
-  if (signals_->edits_waiting == 0 || signals_->is_closed) end_progress();
+  reported_ = ChangeReport::None;
+  --signals_->edits_waiting;
+}
+
+/// Reports the change to features only after the last of the waiting edits.
+bool DocumentWorker::report_change(const Client& client, const rpc::OthersWait& others_wait) {
+  const bool has_ended = signals_->edits_waiting != 0 || report_all(client, others_wait);
+  if (has_ended && (signals_->edits_waiting == 0 || signals_->is_closed)) end_progress();
+  return has_ended;
 }
 
 bool DocumentWorker::shows_progress_to(const Client& client) const {
@@ -110,18 +112,42 @@ void DocumentWorker::log(const std::exception& error) {
                    rpc::write({{"type", 1}, {"message", fmt::format("{}: {}", uri_, error.what())}}));
 }
 
-void DocumentWorker::report_change(const Client& client) {
-  if (is_configuration_) return report_as_configuration(client);
+bool DocumentWorker::report_all(const Client& client, const rpc::OthersWait& others_wait) {
+  if (reported_ == ChangeReport::All) return true;  // By the report of a later edit.
+  if (is_configuration_) {
+    reported_ = ChangeReport::All;
+    report_as_configuration(client);
+    return true;
+  }
   try {
-    report_configuration(client);
-    const Snapshot snapshot(document_, client, Interest{nullptr, &signals_->edits_waiting});
+    if (reported_ == ChangeReport::None) report_so_far(client);
+    reported_ = ChangeReport::Begun;
+    const Snapshot snapshot(document_, client, Interest{nullptr, &signals_->edits_waiting, others_wait});
+    snapshot.analysis();
+    reported_ = ChangeReport::All;
     for (const features::Feature* const feature : all_features())
       if (feature->changed) feature->changed(snapshot, notifier_.notify);
+  } catch (const documents::Postponed&) {
+    return false;
   } catch (const rpc::Error&) {
-    return;  // Another edit has arrived, and its change will be reported.
+    return true;  // Another edit has arrived, and its change will be reported.
   } catch (const std::exception& error) {
     log(error);
   }
+  return true;
+}
+
+/// Where an edit has many lines checked again, the first of them are reported at once: among them is the one in which
+/// the user types.
+void DocumentWorker::report_so_far(const Client& client) {
+  report_configuration(client);
+  const auto is_moment_over = [chunks = 0]() mutable {
+    return ++chunks == documents::AnalyzedDocument::kChunksInAMoment;
+  };
+  if (document_.update(is_moment_over) || !document_.has_known_findings()) return;
+  const Snapshot known(document_, client, {}, Snapshot::ShownFindings::Known);
+  for (const features::Feature* const feature : all_features())
+    if (feature->changed_so_far) feature->changed_so_far(known, notifier_.notify);
 }
 
 static std::string published(const std::string& uri, Json diagnostics) {
@@ -177,17 +203,25 @@ void DocumentWorker::report_again() {
   if (is_configuration_ && last_client_) report_as_configuration(*last_client_);
 }
 
-void DocumentWorker::answer(const features::Method& method, const Json& params, const Client& client,
-                            const WorkerRequest& request) {
+bool DocumentWorker::answer(const features::Method& method, const Json& params, const Client& client,
+                            const WorkerRequest& request, const AnswerTurn& turn) {
   static constexpr dialect::Text kRunning = {"running {}", "esecuzione di {}"};
+  bool is_answered = true;
   work_on(request, [&] {
-    const Snapshot snapshot(document_, client, Interest{request.cancelled.get(), &signals_->edits_waiting});
-    if (!method.begin) return request.done(method.answer(snapshot, params));
-    std::optional<std::string> title;
-    if (shows_progress_to(client)) title = work_title(kRunning, uri_, client);
-    const std::shared_ptr<const std::atomic<bool>> is_closed(signals_, &signals_->is_closed);
-    background_requests_.post(method.begin(snapshot, params), request, is_closed, title);
+    if (turn.asked != document_.revision()) throw documents::edited();
+    const Snapshot snapshot(document_, client,
+                            Interest{request.cancelled.get(), &signals_->edits_waiting, turn.others_wait});
+    try {
+      if (!method.begin) return request.done(method.answer(snapshot, params));
+      std::optional<std::string> title;
+      if (shows_progress_to(client)) title = work_title(kRunning, uri_, client);
+      const std::shared_ptr<const std::atomic<bool>> is_closed(signals_, &signals_->is_closed);
+      background_requests_.post(method.begin(snapshot, params), request, is_closed, title);
+    } catch (const documents::Postponed&) {
+      is_answered = false;
+    }
   });
+  return is_answered;
 }
 
 void DocumentWorker::order_verification(const VerificationOrder& order,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "lsp/rpc/message.h"
 #include "lsp/rpc/on_loop.h"
 #include "lsp/rpc/strand.h"
+#include "lsp/rpc/strand_bound.h"
 
 namespace isocnc::lsp {
 
@@ -43,8 +45,20 @@ class DocumentWorker {
   void edit(const rpc::Call& call, const protocol::Client& client);
   /// The client's settings or the configuration files have changed.
   void reconfigure(const protocol::Client& client);
-  void answer(const features::Method& method, const rpc::Json& params, const protocol::Client& client,
-              const background::WorkerRequest& request);
+  /// After each of these three: reports what has changed, unless another edit waits. False if it is to be called again
+  /// after the other work that waits.
+  bool report_change(const protocol::Client& client, const rpc::OthersWait& others_wait);
+
+  /// A number that changes with each edit.
+  std::uint64_t revision() const { return document_.revision(); }
+  /// When a request was made, and what waits for it.
+  struct AnswerTurn {
+    std::uint64_t asked;  ///< The revision that the client saw.
+    const rpc::OthersWait& others_wait;
+  };
+  /// False if it is to be called again after the other work that waits.
+  bool answer(const features::Method& method, const rpc::Json& params, const protocol::Client& client,
+              const background::WorkerRequest& request, const AnswerTurn& turn);
   /// Calls `start` with what is to be verified, or with nothing: where the program has been verified as it is, or is
   /// too long.
   void order_verification(const background::VerificationOrder& order,
@@ -54,8 +68,9 @@ class DocumentWorker {
   void report_again();
 
  private:
-  void finish_edit(const std::function<void()>& edit, const protocol::Client& client);
-  void report_change(const protocol::Client& client);
+  void make_edit(const std::function<void()>& edit);
+  bool report_all(const protocol::Client& client, const rpc::OthersWait& others_wait);
+  void report_so_far(const protocol::Client& client);
   void report_verification(const protocol::Client& client);
   void start_progress(const protocol::Client& client);
   void end_progress();
@@ -73,6 +88,9 @@ class DocumentWorker {
   const std::shared_ptr<DocumentSignals> signals_;
   bool is_long_ = false;  // Whether the text was long when opened.
   bool is_progress_shown_ = false;
+  /// What has been reported of the last edit.
+  enum class ChangeReport : std::uint8_t { None, Begun, All };
+  ChangeReport reported_ = ChangeReport::All;
   documents::AnalyzedDocument document_;
   std::optional<protocol::Client> last_client_;  // Of a configuration: the one that was last reported to.
   background::BackgroundRequests background_requests_;

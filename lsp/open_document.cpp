@@ -36,21 +36,30 @@ Verification::Callbacks OpenDocument::verification_callbacks(const VerificationM
   return {.order = order, .take = take, .progress = means.progress};
 }
 
-void OpenDocument::open(rpc::CallPointer call, protocol::ClientPointer client) {
+/// What changes the document is reported once no further change waits.
+template <class Change>
+void OpenDocument::change(Change change, const protocol::ClientPointer& client) {
   ++signals_->edits_waiting;
-  worker_.post([call = std::move(call), client](DocumentWorker& worker) { worker.open(*call, *client); });
+  worker_.post([change = std::move(change), client](DocumentWorker& worker) { change(worker, *client); });
+  worker_.post_in_parts([client](DocumentWorker& worker, const rpc::OthersWait& others_wait) {
+    return worker.report_change(*client, others_wait);
+  });
+}
+
+void OpenDocument::open(rpc::CallPointer call, protocol::ClientPointer client) {
+  change([call = std::move(call)](DocumentWorker& worker, const protocol::Client& of) { worker.open(*call, of); },
+         client);
   if (verification_) verification_->open(std::move(client));
 }
 
 void OpenDocument::edit(rpc::CallPointer call, protocol::ClientPointer client) {
-  ++signals_->edits_waiting;
-  worker_.post([call = std::move(call), client](DocumentWorker& worker) { worker.edit(*call, *client); });
+  change([call = std::move(call)](DocumentWorker& worker, const protocol::Client& of) { worker.edit(*call, of); },
+         client);
   if (verification_) verification_->edit(std::move(client));
 }
 
 void OpenDocument::reconfigure(protocol::ClientPointer client) {
-  ++signals_->edits_waiting;
-  worker_.post([client](DocumentWorker& worker) { worker.reconfigure(*client); });
+  change([](DocumentWorker& worker, const protocol::Client& of) { worker.reconfigure(of); }, client);
   if (verification_) verification_->open(std::move(client));
 }
 
@@ -78,9 +87,11 @@ void OpenDocument::close() {
 
 void OpenDocument::ask(features::Method method, rpc::CallPointer call, rpc::Json params, protocol::ClientPointer client,
                        WorkerRequest request) {
-  worker_.post([method, call = std::move(call), params = std::move(params), client = std::move(client),
-                request = std::move(request)](DocumentWorker& worker) {
-    worker.answer(method, call->message.with_texts(params), *client, request);
+  worker_.post_in_parts([method, call = std::move(call), params = std::move(params), client = std::move(client),
+                         request = std::move(request), asked = std::optional<std::uint64_t>()](
+                            DocumentWorker& worker, const rpc::OthersWait& others_wait) mutable {
+    if (!asked) asked = worker.revision();
+    return worker.answer(method, call->message.with_texts(params), *client, request, {*asked, others_wait});
   });
 }
 

@@ -54,6 +54,8 @@ class OpenDocument {
   void cancel_verification(std::uint64_t number);
 
  private:
+  template <class Change>
+  void change(Change change, const protocol::ClientPointer& client);
   background::Verification::Callbacks verification_callbacks(const VerificationMeans& means);
 
   const std::string uri_;

@@ -148,12 +148,20 @@ void AnalyzedDocument::reread_settings() {
   if (run_) run_->expire();
 }
 
-bool AnalyzedDocument::update(const std::function<bool()>& stop) {
-  if (is_up_to_date_) return true;
+check::Analysis& AnalyzedDocument::begun_analysis() {
   report_.reset();
   if (!analysis_) analysis_.emplace(document_, settings_.program->setup, check::Analysis::Unchecked{});
-  is_up_to_date_ = analysis_->update(stop);
+  return *analysis_;
+}
+
+bool AnalyzedDocument::update(const std::function<bool()>& stop) {
+  if (is_up_to_date_) return true;
+  is_up_to_date_ = begun_analysis().update(stop);
   return is_up_to_date_;
+}
+
+bool AnalyzedDocument::update_before(std::size_t line, const std::function<bool()>& stop) {
+  return is_up_to_date_ || begun_analysis().update_before(line, stop);
 }
 
 const ProgramIndex& AnalyzedDocument::index() {

@@ -30,6 +30,9 @@ struct ContentChange {
 /// features see it as a Snapshot. Reads no files before open().
 class AnalyzedDocument {
  public:
+  /// So many chunks of 128 lines are checked in a moment: 0.2 ms, or 2 if each line has findings.
+  static constexpr int kChunksInAMoment = 16;
+
   AnalyzedDocument(std::string uri, SettingsStore& settings);
 
   /// Replaces the whole text.
@@ -41,12 +44,16 @@ class AnalyzedDocument {
   /// Brings the analysis up to date with the text. Calls `stop` at intervals; when that returns true, leaves the rest
   /// for the next call and returns false.
   bool update(const std::function<bool()>& stop = {});
+  /// The same for the frontier before a line alone.
+  bool update_before(std::size_t line, const std::function<bool()>& stop);
+  /// check::Analysis::has_known_findings().
+  bool has_known_findings() const { return analysis_ && analysis_->has_known_findings(); }
 
   const std::string& uri() const { return uri_; }
   std::int64_t version() const { return version_; }
   const syntax::Document& document() const { return document_; }
   const DocumentSettings& settings() const { return settings_; }
-  /// The members below are as of the last update().
+  /// The members below are as of the last update(), or of one before it (has_known_findings()).
   const check::Analysis& analysis() const { return *analysis_; }
   const check::Report& report();
   /// The first findings of the report, at least `maximum` unless there are fewer, and the number of findings after
@@ -94,6 +101,7 @@ class AnalyzedDocument {
   bool is_known(const simulation::RunFinding& of_run) const;
   check::Report shown_report();
   bool is_long();
+  check::Analysis& begun_analysis();
   selection::Suppressions read_suppressions();
 
   const std::string uri_;

@@ -1,13 +1,31 @@
 #include "lsp/documents/snapshot.h"
 
-#include "lsp/rpc/message.h"
-
 namespace isocnc::documents {
 
-Snapshot::Snapshot(AnalyzedDocument& document, const protocol::Client& client, const Interest& interest)
-    : document_(document), client_(client), interest_(interest) {
-  const bool is_done = document_.update([&] { return !is_wanted(); });
-  if (!is_done) throw_if_unwanted();
+rpc::Error edited() { return {rpc::ErrorCode::ContentModified, "the document has been edited"}; }
+
+/// Asks whether the analysis is to be left. Some lines are checked before it is left for other work.
+std::function<bool()> Snapshot::stop() const {
+  return [this, chunks = 0]() mutable {
+    return !is_wanted() ||
+           (++chunks % AnalyzedDocument::kChunksInAMoment == 0 && interest_.others_wait && interest_.others_wait());
+  };
+}
+
+AnalyzedDocument& Snapshot::updated() const {
+  if (findings_ == ShownFindings::All && !document_.update(stop())) leave();
+  return document_;
+}
+
+check::Frontier Snapshot::frontier_before(std::size_t line) const {
+  if (!document_.update_before(line, stop())) leave();
+  return document_.analysis().frontier_before(line);
+}
+
+/// Where the analysis has been stopped.
+void Snapshot::leave() const {
+  throw_if_unwanted();
+  throw Postponed();
 }
 
 bool Snapshot::is_wanted() const {
@@ -25,8 +43,7 @@ std::optional<execution::State> Snapshot::state_before(std::size_t line) const {
 void Snapshot::throw_if_unwanted() const {
   if (interest_.cancelled && interest_.cancelled->load())
     throw rpc::Error(rpc::ErrorCode::RequestCancelled, "the request has been cancelled");
-  if (interest_.edits_waiting && interest_.edits_waiting->load() > 0)
-    throw rpc::Error(rpc::ErrorCode::ContentModified, "the document has been edited");
+  if (interest_.edits_waiting && interest_.edits_waiting->load() > 0) throw edited();
 }
 
 }  // namespace isocnc::documents

@@ -76,8 +76,7 @@ Json answer_code_lens(const Snapshot& snapshot, const protocol::DocumentParams&)
 
 BackgroundRequest resolve_lens(const Snapshot& snapshot, const LensResolveParams& params) {
   const Json& data = params.lens.at("data");
-  if (data.at("version") != snapshot.version())
-    throw rpc::Error(rpc::ErrorCode::ContentModified, "the document has been edited");
+  if (data.at("version") != snapshot.version()) throw documents::edited();
   const auto times = queries::SectionTimes::of(snapshot);
   const auto known = times->known(snapshot);
   const auto program = known ? nullptr : std::make_shared<queries::TimedProgram>(snapshot, 0);

@@ -346,6 +346,7 @@ extern const Feature diagnostics = {
     .methods = {on_any<&pull>("textDocument/diagnostic", kNothing)},
     .workspace_requests = {workspace_request<&pull_each>("workspace/diagnostic", conclude_pull)},
     .changed = push,
+    .changed_so_far = push,
     .verified = show_verified,
     .refresh = Refresh{.method = "workspace/diagnostic/refresh",
                        .capability = "/workspace/diagnostics/refreshSupport",

@@ -126,6 +126,8 @@ struct Feature {
   std::vector<ActionSource> actions;
   /// Called after a document has been opened or edited, once no further edit waits.
   void (*changed)(const Snapshot& snapshot, const Notify& notify) = nullptr;
+  /// Called before `changed` where an edit has more lines checked again than in a moment, with what is known so far.
+  void (*changed_so_far)(const Snapshot& snapshot, const Notify& notify) = nullptr;
   /// Called after a verification has ended, unless an edit waits. Returns whether answers to earlier requests are
   /// outdated now, so that `refresh` is to be sent.
   bool (*verified)(const Snapshot& snapshot, const Notify& notify) = nullptr;

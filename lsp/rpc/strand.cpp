@@ -75,6 +75,11 @@ void Strand::post(Task task) {
   });
 }
 
+bool Strand::has_waiting() const {
+  const std::lock_guard lock(queue_->mutex);
+  return !queue_->tasks.empty();
+}
+
 void Strand::run(Queue& queue) {
   std::unique_lock lock(queue.mutex);
   while (!queue.tasks.empty()) {

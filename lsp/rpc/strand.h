@@ -46,6 +46,8 @@ class Strand {
   explicit Strand(Pool& pool) : pool_(pool), queue_(std::make_shared<Queue>()) {}
 
   void post(Task task);
+  /// Whether tasks wait for the one that is running.
+  bool has_waiting() const;
 
  private:
   struct Queue {

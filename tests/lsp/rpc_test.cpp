@@ -206,6 +206,21 @@ TEST(Strand, IsDestroyedWithAPoolThatHasNotRunIt) {
   EXPECT_TRUE(watched.expired());
 }
 
+TEST(StrandBound, GoesOnWithALongTaskAfterTheOthers) {
+  Loop loop;
+  Pool pool(loop, 0);
+  StrandBound<std::string> log(pool);
+  std::string result;
+  log.post_in_parts([&, part = 0](std::string& bound, const OthersWait& others_wait) mutable {
+    bound += std::to_string(++part) + (others_wait() ? " others wait, " : " ");
+    result = bound;
+    return part == 3;
+  });
+  log.post([](std::string& bound) { bound += "other, "; });
+  loop.run_due(std::chrono::steady_clock::time_point::max());
+  EXPECT_EQ(result, "1 others wait, other, 2 3 ");
+}
+
 TEST(Pool, WithoutThreadsRunsItsTasksOnTheLoop) {
   Loop loop;
   Pool pool(loop, 0);
