@@ -79,6 +79,14 @@ TEST(ProgramFormatter, TouchesNoMotionAfterAnError) {
   EXPECT_EQ(format("G1 X1 F5\nG1 X1 X2\nG1 X3\nG1 X4\n", kFold), "G1 X1 F5\nG1 X1 X2\nG1 X3\nX4\n");
 }
 
+/// Words that the line above lacks belong to its block, and stay without a motion of their own.
+TEST(ProgramFormatter, LeavesTheWordsThatTheLineAboveLacks) {
+  EXPECT_EQ(format("G1 F5\nX1\nX2\nG2 X4\n; (1)\nY2 I1 J1\nX6 R1\n", kWrite),
+            "G1 F5\nX1\nX2\nG2 X4\n; (1)\nY2 I1 J1\nG02 X6 R1\n");
+  EXPECT_EQ(format("G1 X1 F5\nG1\nG1 X2\nG1 X3\nG2 X4\nG2 Y2 I1 J1\nG2 X6 R1\n", kFold),
+            "G1 X1 F5\nG1\nG1 X2\nX3\nG2 X4\nG2 Y2 I1 J1\nX6 R1\n");
+}
+
 TEST(ProgramFormatter, LeavesMotionsThatCannotTakeWhatStandsThere) {
   const std::string text = "G1 X1 F5\nX2 I5\nI5\nA5 X1\n";
   EXPECT_EQ(format(text, kWrite), text);
