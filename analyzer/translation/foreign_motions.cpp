@@ -240,14 +240,14 @@ std::optional<Vec3> TranslationRun::arc_center(CurrentBlock& current, const Vec3
           {Untranslatable::ArcMismatch, at, {written_number(circle.found, 4), written_number(circle.wanted, 4)}});
   } else {
     const double radius = std::abs(length_of(*r));
-    const double half = chord.norm() / 2;
-    if (half < geometry::kEqualCoordinate || radius == 0) return refused({Untranslatable::CenterMissing, r->at, {}});
-    if (half > radius + setup_.arc_tolerance)
-      return refused({Untranslatable::ArcMismatch, r->at, {written_number(radius, 4), written_number(half, 4)}});
-    const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
     const bool is_left = (motion_ == 3) == (r->value > 0);  // Of the chord, seen along it.
-    const double aside = (is_left ? height : -height) / (2 * half);
-    offset = {chord.u / 2 - aside * chord.v, chord.v / 2 + aside * chord.u};
+    const geometry::Circle circle =
+        geometry::find_circle({.end = chord, .radius = radius, .counterclockwise = is_left}, setup_.arc_tolerance);
+    if (circle.goes_nowhere || radius == 0) return refused({Untranslatable::CenterMissing, r->at, {}});
+    if (circle.problem != geometry::ArcProblem::None)
+      return refused(
+          {Untranslatable::ArcMismatch, r->at, {written_number(circle.found, 4), written_number(circle.wanted, 4)}});
+    offset = circle.center;
   }
   Vec3 center = start;
   center[plane.u] += offset.u;
