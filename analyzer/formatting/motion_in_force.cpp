@@ -1,9 +1,12 @@
 #include "analyzer/formatting/motion_in_force.h"
 
+#include <algorithm>
+
 namespace isocnc::formatting {
 
 using syntax::Instruction;
 using syntax::InstructionKind;
+using syntax::LineTree;
 
 /// After a line with a finding the motion is unknown, because the line may not be meant as written.
 void MotionInForce::MotionWords::pass(const syntax::LineTree& line) {
@@ -13,7 +16,26 @@ void MotionInForce::MotionWords::pass(const syntax::LineTree& line) {
   if (!line.findings.empty()) number = kUnknown;
 }
 
+bool is_sound(const LineTree& line, const Instruction& motion, const dialect::GCode& code) {
+  dialect::LetterSet given = 0;
+  for (std::size_t i = motion.begin; i < motion.end; ++i)
+    if (const syntax::Word& word = line.words[i]; word.owner == motion.number && word.letter != 'G')
+      given |= dialect::letter_bit(word.letter);
+  const bool has_circle = !code.is_arc() || (given & dialect::kCircleLetters) != 0;
+  return (given & dialect::kCoordinateLetters) != 0 && (given & ~code.arguments) == 0 && has_circle;
+}
+
+bool MotionInForce::lacks_words(const LineTree& line) const {
+  if (!line.findings.empty()) return true;
+  return std::any_of(line.instructions.begin(), line.instructions.end(), [&](const Instruction& instruction) {
+    if (!instruction.is_motion()) return false;
+    if (instruction.kind == InstructionKind::G) return !is_sound(line, instruction, *instruction.g());
+    return is_known() && !is_sound(line, instruction, *dialect::g_code(in_force()));
+  });
+}
+
 void MotionInForce::leave(const syntax::LineTree& line) {
+  if (!line.words.empty()) follows_lack_ = lacks_words(line);
   if (paths_.live.empty()) return;
   paths_.pass(line, [&](MotionWords& motion) { motion.pass(line); });
   if (!line.findings.empty()) paths_.live.number = kUnknown;  // Even an M02 may not be meant as the end.

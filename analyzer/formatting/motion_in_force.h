@@ -22,8 +22,13 @@ class MotionInForce {
   /// 0 to 3, or one of the constants above.
   std::uint8_t in_force() const { return paths_.live.number; }
   bool is_known() const { return dialect::is_motion_number(in_force()); }
+  /// Whether the block above may lack words that start this line: with a number or a motion of its own the line would
+  /// be another block.
+  bool follows_lack() const { return follows_lack_; }
 
  private:
+  bool lacks_words(const syntax::LineTree& line) const;
+
   struct MotionWords {
     std::uint8_t number = kNotReached;
 
@@ -35,6 +40,10 @@ class MotionInForce {
   };
 
   syntax::ForwardPaths<MotionWords> paths_{MotionWords{kNoMotion}};
+  bool follows_lack_ = false;
 };
+
+/// Whether a motion has coordinates, an arc its circle, and neither has words that it does not take.
+bool is_sound(const syntax::LineTree& line, const syntax::Instruction& motion, const dialect::GCode& code);
 
 }  // namespace isocnc::formatting

@@ -41,35 +41,14 @@ LineChange LinesFormatter::next(const LineTree& line) {
   motion_.enter(line);
   change.motion = motion_change(line);
   change.motion_in_force = motion_.in_force();
-  if (!line.words.empty()) follows_lack_ = lacks_words(line);
   motion_.leave(line);
   return change;
-}
-
-/// Whether a motion has coordinates, an arc its circle, and neither has words that it does not take.
-static bool is_sound(const LineTree& line, const Instruction& motion, const dialect::GCode& code) {
-  dialect::LetterSet given = 0;
-  for (std::size_t i = motion.begin; i < motion.end; ++i)
-    if (const syntax::Word& word = line.words[i]; word.owner == motion.number && word.letter != 'G')
-      given |= dialect::letter_bit(word.letter);
-  const bool has_circle = !code.is_arc() || (given & dialect::kCircleLetters) != 0;
-  return (given & dialect::kCoordinateLetters) != 0 && (given & ~code.arguments) == 0 && has_circle;
-}
-
-/// Whether a block may lack words that start the next line: with a motion of its own that line would be another block.
-bool LinesFormatter::lacks_words(const LineTree& line) const {
-  if (!line.findings.empty()) return true;
-  return std::any_of(line.instructions.begin(), line.instructions.end(), [&](const Instruction& instruction) {
-    if (!instruction.is_motion()) return false;
-    if (instruction.kind == InstructionKind::G) return !is_sound(line, instruction, *instruction.g());
-    return motion_.is_known() && !is_sound(line, instruction, *dialect::g_code(motion_.in_force()));
-  });
 }
 
 /// Changes a motion only if all paths to the line agree on it, it takes all the line's words, an arc has a circle, and
 /// the block above lacks nothing: other lines have findings, whose place would change.
 LineChange::MotionEdit LinesFormatter::motion_change(const LineTree& line) const {
-  if (follows_lack_ || !motion_.is_known() || !line.findings.empty()) return LineChange::MotionEdit::Keep;
+  if (motion_.follows_lack() || !motion_.is_known() || !line.findings.empty()) return LineChange::MotionEdit::Keep;
   const dialect::GCode& in_force = *dialect::g_code(motion_.in_force());
   const bool writes = motions_ == MotionStyle::Write;
   const auto fits = [&](const Instruction& instruction) {

@@ -45,14 +45,12 @@ class LinesFormatter {
 
  private:
   syntax::LineChange::MotionEdit motion_change(const syntax::LineTree& line) const;
-  bool lacks_words(const syntax::LineTree& line) const;
 
   MotionStyle motions_;
   syntax::Formatter formatter_;
   std::optional<Renumbering> numbers_;
   std::optional<Renumbering::RenumberingObstacle> obstacle_;
   MotionInForce motion_;
-  bool follows_lack_ = false;  ///< Whether the last block lacks words, which the next line may have.
 };
 
 /// Lines of a program before and after formatting: the same number, with the same line ends.

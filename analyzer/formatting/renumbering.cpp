@@ -51,6 +51,7 @@ Renumbering::Renumbering(const EachLine& each_line, const NumberStyle& style) : 
       refuse(RenumberingObstacle::Kind::LabelMissing, jump.jump_line, jump.text);
     }
   next_ = style.start;
+  motion_ = {};
 }
 
 void Renumbering::refuse(RenumberingObstacle::Kind kind, std::size_t line, std::string label) {
@@ -66,7 +67,10 @@ void Renumbering::read_jump(std::size_t number, const LineTree& line) {
 }
 
 void Renumbering::number_label(std::size_t number, const LineTree& line) {
-  if (!is_numbered(line)) return;
+  motion_.enter(line);
+  const bool has_number = is_numbered(line);
+  motion_.leave(line);
+  if (!has_number) return;
   if (next_ > syntax::kMaxLineNumber) return refuse(RenumberingObstacle::Kind::TooManyDigits, number);
   const std::uint64_t is_now = next_;
   next_ += style_.step;
@@ -78,16 +82,25 @@ void Renumbering::number_label(std::size_t number, const LineTree& line) {
   label.number = is_now;
 }
 
+/// Whether a line starts with a word that the block above may lack: it may be the rest of that block.
+static bool starts_with_argument(const LineTree& line) {
+  constexpr dialect::LetterSet kArguments = dialect::kMotionLetters | dialect::letters("PQTS");
+  return !line.words.empty() && dialect::contains(kArguments, line.words.front().letter);
+}
+
 bool Renumbering::is_numbered(const LineTree& line) const {
-  return line.findings.empty() && (line.has_label() || (style_.all_lines && !line.is_empty()));
+  if (!line.findings.empty()) return false;
+  if (line.has_label()) return true;
+  return style_.all_lines && !line.is_empty() && !(motion_.follows_lack() && starts_with_argument(line));
 }
 
 void Renumbering::change(const LineTree& line, syntax::LineChange& change) {
-  if (!is_numbered(line) && line.jump == nullptr) return;
+  motion_.enter(line);
   if (is_numbered(line)) {
     change.line_number = next_;
     next_ += style_.step;
   }
+  motion_.leave(line);
   if (line.jump != nullptr && line.jump->has_target) change.target = labels_.at(line.jump->target).number;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "analyzer/formatting/motion_in_force.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/syntax/formatter.h"
 
@@ -62,6 +63,7 @@ class Renumbering {
 
   NumberStyle style_;
   std::uint64_t next_;
+  MotionInForce motion_;
   std::unordered_map<std::uint64_t, NumberedLabel> labels_;  // The labels that jumps name.
   std::optional<RenumberingObstacle> obstacle_;
 };
