@@ -82,11 +82,13 @@ void DocumentWorker::make_edit(const std::function<void()>& edit) {
     log(error);
   }
   reported_ = ChangeReport::None;
+  ++change_count_;
   --signals_->edits_waiting;
 }
 
 /// Reports the change to features only after the last of the waiting edits.
-bool DocumentWorker::report_change(const Client& client, const rpc::OthersWait& others_wait) {
+bool DocumentWorker::report_change(std::uint64_t change, const Client& client, const rpc::OthersWait& others_wait) {
+  if (change != change_count_) return true;
   const bool has_ended = signals_->edits_waiting != 0 || report_all(client, others_wait);
   if (has_ended && (signals_->edits_waiting == 0 || signals_->is_closed)) end_progress();
   return has_ended;
@@ -113,7 +115,6 @@ void DocumentWorker::log(const std::exception& error) {
 }
 
 bool DocumentWorker::report_all(const Client& client, const rpc::OthersWait& others_wait) {
-  if (reported_ == ChangeReport::All) return true;  // By the report of a later edit.
   if (is_configuration_) {
     reported_ = ChangeReport::All;
     report_as_configuration(client);

@@ -45,9 +45,11 @@ class DocumentWorker {
   void edit(const rpc::Call& call, const protocol::Client& client);
   /// The client's settings or the configuration files have changed.
   void reconfigure(const protocol::Client& client);
-  /// After each of these three: reports what has changed, unless another edit waits. False if it is to be called again
-  /// after the other work that waits.
-  bool report_change(const protocol::Client& client, const rpc::OthersWait& others_wait);
+  /// The number of calls of these three.
+  std::uint64_t change_count() const { return change_count_; }
+  /// After each of these three: reports that change, unless a later one has been made or waits. False if it is to be
+  /// called again after the other work that waits.
+  bool report_change(std::uint64_t change, const protocol::Client& client, const rpc::OthersWait& others_wait);
 
   /// A number that changes with each edit.
   std::uint64_t revision() const { return document_.revision(); }
@@ -91,6 +93,7 @@ class DocumentWorker {
   /// What has been reported of the last edit.
   enum class ChangeReport : std::uint8_t { None, Begun, All };
   ChangeReport reported_ = ChangeReport::All;
+  std::uint64_t change_count_ = 0;
   documents::AnalyzedDocument document_;
   std::optional<protocol::Client> last_client_;  // Of a configuration: the one that was last reported to.
   background::BackgroundRequests background_requests_;

@@ -41,8 +41,10 @@ template <class Change>
 void OpenDocument::change(Change change, const protocol::ClientPointer& client) {
   ++signals_->edits_waiting;
   worker_.post([change = std::move(change), client](DocumentWorker& worker) { change(worker, *client); });
-  worker_.post_in_parts([client](DocumentWorker& worker, const rpc::OthersWait& others_wait) {
-    return worker.report_change(*client, others_wait);
+  worker_.post_in_parts([client, change = std::optional<std::uint64_t>()](DocumentWorker& worker,
+                                                                          const rpc::OthersWait& others_wait) mutable {
+    if (!change) change = worker.change_count();
+    return worker.report_change(*change, *client, others_wait);
   });
 }
 

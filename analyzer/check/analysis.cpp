@@ -327,9 +327,13 @@ void Analysis::follow_jumps(const syntax::ChunkChange& change, const std::vector
 
 bool Analysis::update(const std::function<bool()>& stop) {
   follow_text();
-  const bool is_done = check_stale(rows_.size(), stop) && follow_centers(stop);
-  has_known_findings_ |= is_done;
-  return is_done;
+  return check_stale(rows_.size(), stop) && follow_centers(stop);
+}
+
+bool Analysis::has_known_findings() const {
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].is_new) return false;
+  return rows_.size() > 0;
 }
 
 bool Analysis::update_before(std::size_t line, const std::function<bool()>& stop) {
@@ -464,6 +468,7 @@ void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, C
   row.centers = outcome.centers;
   row.may_assign = outcome.may_assign;
   row.is_stale = false;
+  row.is_new = false;
   if (row.labels == LabelRange::any()) row.labels = LabelRange::of(trees);
   row.has_text = outcome.has_text;
   row.has_more = !outcome.findings.empty() || !outcome.fold_ends.empty() ||

@@ -37,8 +37,8 @@ class Analysis {
   /// The same for frontier_before() a line alone.
   bool update_before(std::size_t line, const std::function<bool()>& stop = {});
   /// Whether there are findings while the analysis is behind the text: below the lines checked so far those of an
-  /// earlier text, on the lines that they have now. There are none before the first update has ended.
-  bool has_known_findings() const { return has_known_findings_; }
+  /// earlier text, on the lines that they have now. Not while changed lines wait to be checked, as all do at first.
+  bool has_known_findings() const;
   Report report() const { return excerpt({}).report; }
   /// The first findings, at most as many as the options allow.
   FirstFindings excerpt(const FirstFindingsOptions& options) const;
@@ -128,6 +128,7 @@ class Analysis {
     PositionShift shift;      ///< The shift of all positions before the chunk since it was checked.
     PositionUse positions;    ///< A copy from the outcome.
     bool is_stale = true;     ///< Whether the chunk must be checked.
+    bool is_new = true;       ///< Whether it has never been checked.
     CenterUse centers;        ///< A copy from the outcome.
     bool may_assign = false;  ///< A copy from the outcome.
     bool has_text = false;
@@ -168,7 +169,6 @@ class Analysis {
   FindingCounts counts_;
   std::uint64_t lines_checked_ = 0;
   std::size_t chunks_checked_ = 0;  // By this update.
-  bool has_known_findings_ = false;
 };
 
 }  // namespace isocnc::check
