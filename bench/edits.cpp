@@ -29,8 +29,6 @@ namespace {
 
 /// As many as the language server sends.
 constexpr std::size_t kMostFindings = 1001;
-/// The language server's AnalyzedDocument::kChunksInAMoment.
-constexpr int kChunksInAMoment = 16;
 
 using syntax::Document;
 using syntax::Position;
@@ -161,7 +159,8 @@ int run(std::string_view kind, std::size_t slowest, int count, const char* file)
     std::size_t found = 0;
     const auto report = [&] { found = analysis.excerpt({.max = kMostFindings, .folds = true}).report.findings.size(); };
     document.replace(edit.begin, edit.end, edit.text);
-    const bool is_all = analysis.update([chunks = 0]() mutable { return ++chunks == kChunksInAMoment; });
+    const bool is_all =
+        analysis.update([chunks = 0]() mutable { return ++chunks == check::Analysis::kChunksInAMoment; });
     const bool has_first = !is_all && analysis.has_known_findings();
     std::uint64_t checked = analysis.lines_checked();
     if (has_first) report();

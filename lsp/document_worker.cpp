@@ -81,7 +81,7 @@ void DocumentWorker::make_edit(const std::function<void()>& edit) {
   } catch (const std::exception& error) {
     log(error);
   }
-  reported_ = ChangeReport::None;
+  is_report_begun_ = false;
   ++change_count_;
   --signals_->edits_waiting;
 }
@@ -116,16 +116,13 @@ void DocumentWorker::log(const std::exception& error) {
 
 bool DocumentWorker::report_all(const Client& client, const rpc::OthersWait& others_wait) {
   if (is_configuration_) {
-    reported_ = ChangeReport::All;
     report_as_configuration(client);
     return true;
   }
   try {
-    if (reported_ == ChangeReport::None) report_so_far(client);
-    reported_ = ChangeReport::Begun;
+    if (!std::exchange(is_report_begun_, true)) report_so_far(client);
     const Snapshot snapshot(document_, client, Interest{nullptr, &signals_->edits_waiting, others_wait});
     snapshot.analysis();
-    reported_ = ChangeReport::All;
     for (const features::Feature* const feature : all_features())
       if (feature->changed) feature->changed(snapshot, notifier_.notify);
   } catch (const documents::Postponed&) {
@@ -142,9 +139,7 @@ bool DocumentWorker::report_all(const Client& client, const rpc::OthersWait& oth
 /// the user types.
 void DocumentWorker::report_so_far(const Client& client) {
   report_configuration(client);
-  const auto is_moment_over = [chunks = 0]() mutable {
-    return ++chunks == documents::AnalyzedDocument::kChunksInAMoment;
-  };
+  const auto is_moment_over = [chunks = 0]() mutable { return ++chunks == check::Analysis::kChunksInAMoment; };
   if (document_.update(is_moment_over) || !document_.has_known_findings()) return;
   const Snapshot known(document_, client, {}, Snapshot::ShownFindings::Known);
   for (const features::Feature* const feature : all_features())

@@ -90,9 +90,7 @@ class DocumentWorker {
   const std::shared_ptr<DocumentSignals> signals_;
   bool is_long_ = false;  // Whether the text was long when opened.
   bool is_progress_shown_ = false;
-  /// What has been reported of the last edit.
-  enum class ChangeReport : std::uint8_t { None, Begun, All };
-  ChangeReport reported_ = ChangeReport::All;
+  bool is_report_begun_ = false;  // Whether what was known first of the last change has been reported.
   std::uint64_t change_count_ = 0;
   documents::AnalyzedDocument document_;
   std::optional<protocol::Client> last_client_;  // Of a configuration: the one that was last reported to.

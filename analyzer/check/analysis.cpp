@@ -362,7 +362,6 @@ bool Analysis::check_stale(std::size_t end, const std::function<bool()>& stop) {
 /// Marks the chunks that are to be checked after a change of the text.
 void Analysis::follow_text() {
   lines_checked_ = 0;
-  chunks_checked_ = 0;
   const bool is_first = rows_.size() == 0;
   const auto change = rows_.change_to(document_);
   Frontier at_change = is_first ? Checker::start(setup_) : before(change.first);
@@ -412,7 +411,7 @@ bool Analysis::check_from(std::size_t chunk, std::size_t end, const std::functio
         if (chunk >= end) break;
       }
     }
-    if (stop && chunks_checked_++ > 0 && stop()) {
+    if (stop && lines_checked_ > 0 && stop()) {
       start_at(chunk, std::move(checker.frontier));
       return false;
     }

@@ -30,9 +30,6 @@ struct ContentChange {
 /// features see it as a Snapshot. Reads no files before open().
 class AnalyzedDocument {
  public:
-  /// So many chunks of 128 lines are checked in a moment: 0.2 ms, or 2 if each line has findings.
-  static constexpr int kChunksInAMoment = 16;
-
   AnalyzedDocument(std::string uri, SettingsStore& settings);
 
   /// Replaces the whole text.

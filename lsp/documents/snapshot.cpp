@@ -8,7 +8,7 @@ rpc::Error edited() { return {rpc::ErrorCode::ContentModified, "the document has
 std::function<bool()> Snapshot::stop() const {
   return [this, chunks = 0]() mutable {
     return !is_wanted() ||
-           (++chunks % AnalyzedDocument::kChunksInAMoment == 0 && interest_.others_wait && interest_.others_wait());
+           (++chunks % check::Analysis::kChunksInAMoment == 0 && interest_.others_wait && interest_.others_wait());
   };
 }
 
