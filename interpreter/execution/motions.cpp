@@ -162,7 +162,7 @@ bool Executor::motion_is_in_force(const Arguments& arguments) {
     report(is_of_motion ? "stray-argument/no-motion"_cause : "stray-argument/no-such-axis"_cause,
            arguments.first().span());
   }
-  if (first != 'X' || names_axis_vectors(arguments)) doubt(ModalGroup::Face);  // B90 for G29 B90.
+  if (!arguments.has('X') || names_axis_vectors(arguments)) doubt(ModalGroup::Face);  // B90 for G29 B90.
   doubt_code_before(arguments);
   return false;
 }
