@@ -223,7 +223,7 @@ std::uint16_t LineParser::add_lone_goto(std::uint16_t index) {
   const auto at = static_cast<std::uint16_t>(index + 1);
   if (at >= word_count()) return index;
   const char letter = word(at).letter;
-  if (letter != 'N' && letter != kNumber && letter != kError) return index;
+  if (letter != 'N' && letter != kNumber && !is_no_word(word(at))) return index;
   const bool is_label = letter == 'N' && word(at).is_plain_integer();
   const std::uint16_t last = is_label ? at : end_of_target(at);
   if (!is_label) take_back_within(hull(word(at).span(), word(last).span()));

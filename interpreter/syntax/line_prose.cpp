@@ -102,15 +102,19 @@ bool LineParser::is_prose(std::size_t index) const {
 }
 
 /// The end of the letters without numbers, and of text that is no word, from a word on. `is_odd`: whether they contain
-/// something that is never valid there, as `X Y Z` does not.
+/// something that is never valid there, as `X Y Z` does not. APRI is: nobody leaves out the numbers of letters together
+/// in such an order.
 std::uint16_t LineParser::end_of_prose(std::uint16_t index, bool& is_odd) const {
   const auto is_foreign = [&](const Word& it) {
     return it.letter == kError && (is_foreign_word(text_of(it.span())) || it.has(Word::kReported));
   };
   dialect::LetterSet seen = 0;
+  const std::uint16_t begin = index;
   for (; index < word_count() && is_prose(index) && !is_foreign(word(index)); ++index) {
     const char letter = word(index).letter;
     is_odd |= letter == kError || !contains(dialect::kDimensionLetters, letter) || contains(seen, letter);
+    is_odd |= index > begin && word(index).begin == word(index - 1u).end &&
+              dialect::kArgumentOrder.find(letter) < dialect::kArgumentOrder.find(word(index - 1u).letter);
     if (letter != kError) seen |= dialect::letter_bit(letter);
   }
   return index;
