@@ -62,7 +62,7 @@ LineChange::MotionEdit LinesFormatter::motion_change(const LineTree& line) const
 }
 
 ProgramFormatter::ProgramFormatter(std::string_view text, const ProgramStyle& style)
-    : lines_(style, each_line_of(text)), next_(text.data()), end_(text.data() + text.size()) {
+    : lines_(style, each_line_of(text)), begin_(text.data()), next_(text.data()), end_(text.data() + text.size()) {
   if (lines_.obstacle()) next_ = end_;
 }
 
@@ -83,10 +83,15 @@ std::optional<FormattedPiece> ProgramFormatter::next() {
   return FormattedPiece{before, after_};
 }
 
-/// Unchanged lines, and all line ends, are copied together when a changed line comes.
+/// Unchanged lines, and all line ends, are copied together when a changed line comes. Blanks alone stay between CR and
+/// LF, which without them would end one line.
 void ProgramFormatter::add_line(const LineTree& line) {
   const std::string_view formatted = lines_.written(line, lines_.next(line));
   if (formatted == line.text) return;
+  const char* const line_begin = line.text.data();
+  const char* const line_end = line_begin + line.text.size();
+  const bool parts_line_ends = line_begin != begin_ && line_begin[-1] == '\r' && line_end != end_ && *line_end == '\n';
+  if (formatted.empty() && parts_line_ends) return;
   after_.append(copied_, line.text.data());
   after_.append(formatted);
   copied_ = line.text.data() + line.text.size();

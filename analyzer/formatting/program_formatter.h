@@ -76,6 +76,7 @@ class ProgramFormatter {
   void add_line(const syntax::LineTree& line);
 
   LinesFormatter lines_;
+  const char* const begin_;
   const char* next_;
   const char* const end_;
   syntax::TreeStore store_;

@@ -27,6 +27,11 @@ TEST(ProgramFormatter, KeepsLineEndsAndTheLackOfOne) {
   EXPECT_EQ(format("\n", {}), "\n");
 }
 
+/// CR and LF together end one line.
+TEST(ProgramFormatter, KeepsBlanksBetweenLineEnds) {
+  EXPECT_EQ(format("G1 X1\r \nG1 X2 \r\n \n", {}), "G1 X1\r \nG1 X2\r\n\n");
+}
+
 TEST(ProgramFormatter, PiecesMakeUpTheProgram) {
   std::string text;
   std::string expected;
