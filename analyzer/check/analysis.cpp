@@ -4,8 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "analyzer/check/jump_collector.h"
-
 namespace isocnc::check {
 
 Analysis::Analysis(const syntax::Document& document, const rules::CheckSetup& setup)
@@ -425,23 +423,8 @@ bool Analysis::check_from(std::size_t chunk, std::size_t end, const std::functio
 /// Whether a chunk gives the same findings after this change, and passes it on.
 bool Analysis::passes(std::size_t chunk, const FrontierChange& change) const {
   const Row& row = rows_[chunk];
-  if (row.is_stale) return false;
-  const PositionUse& use = row.positions;
-  const execution::AxisSet shifted = change.shift.axes;
-  if (!change.shift.empty() && (use.far || (shifted & use.read) != 0 || (use.by_several && (shifted & use.set) != 0)))
-    return false;
-  if (!change.state) return true;
   const auto& [before, outcome] = *row.checked;
-  return outcome.only_row && change.state->passes(*outcome.only_row, before.live[0], setup_.house_rules.get());
-}
-
-/// Passes a state over a chunk, whose kept states become these; resets it where it is the same as before the edit.
-void Analysis::pass_state(std::size_t chunk, std::optional<PassedState>& state) {
-  auto& [before, outcome] = *rows_[chunk].checked;
-  const Group& after = (chunk + 1 == rows_.size() ? end_ : rows_[chunk + 1].checked->before).live[0];
-  state->apply(before.live[0]);
-  state->pass(*outcome.only_row, after.state, setup_.house_rules.get());
-  if (state->equals(after)) state.reset();
+  return !row.is_stale && change.passes(row.positions, outcome.only_row, before, setup_.house_rules.get());
 }
 
 /// Passes a change over the chunks from this one on, as long as they give the same findings after it. Returns the first
@@ -450,8 +433,10 @@ std::size_t Analysis::pass_over(std::size_t chunk, FrontierChange& change) {
   for (; chunk < rows_.size() && !change.empty(); ++chunk) {
     Row& row = rows_[chunk];
     if (!passes(chunk, change) || !row.shift.add(change.shift)) break;
-    change.shift.drop(row.positions.set);
-    if (change.state) pass_state(chunk, change.state);
+    auto& [before, outcome] = *row.checked;
+    if (change.state) change.state->apply(before.live[0]);
+    const Frontier& after = chunk + 1 == rows_.size() ? end_ : rows_[chunk + 1].checked->before;
+    change.pass(row.positions, outcome.only_row, after, setup_.house_rules.get());
   }
   return chunk;
 }

@@ -15,8 +15,6 @@
 
 namespace isocnc::check {
 
-class JumpCollector;
-
 /// The check of a document that is being edited. It keeps the check's frontier before each chunk of lines. After an
 /// edit it checks the changed chunks, and those after them until the frontier equals the kept one. Chunks that pass on
 /// what has changed without another finding are skipped: a shift of positions under G91, and under rows of plain
@@ -159,7 +157,6 @@ class Analysis {
   bool check_from(std::size_t chunk, std::size_t end, const std::function<bool()>& stop);
   void check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, Checker& checker);
   bool passes(std::size_t chunk, const FrontierChange& change) const;
-  void pass_state(std::size_t chunk, std::optional<PassedState>& state);
   std::size_t pass_over(std::size_t chunk, FrontierChange& change);
 
   const syntax::Document& document_;

@@ -127,6 +127,21 @@ void FrontierChange::apply(Frontier& frontier) const {
   if (state) state->apply(frontier.live[0]);
 }
 
+bool FrontierChange::passes(const PositionUse& use, const std::optional<execution::PlainEffects>& row,
+                            const Frontier& before, const rules::HouseRules* rules) const {
+  if (!shift.empty() && (use.far || (shift.axes & use.read) != 0 || (use.by_several && (shift.axes & use.set) != 0)))
+    return false;
+  return !state || (row && state->passes(*row, before.live[0], rules));
+}
+
+void FrontierChange::pass(const PositionUse& use, const std::optional<execution::PlainEffects>& row,
+                          const Frontier& after, const rules::HouseRules* rules) {
+  shift.drop(use.set);
+  if (!state) return;
+  state->pass(*row, after.live[0].state, rules);
+  if (state->equals(after.live[0])) state.reset();
+}
+
 std::optional<FrontierChange> change_between(const Frontier& from, const Frontier& to) {
   if (const auto shift = shift_between(from, to)) return FrontierChange{.shift = *shift};
   if (from.live.size() != 1 || to.live.size() != 1) return std::nullopt;

@@ -47,6 +47,13 @@ struct FrontierChange {
 
   bool empty() const { return shift.empty() && !state; }
   void apply(Frontier& frontier) const;
+  /// Whether lines that have been checked from `before` give the same findings after this change, and pass it on.
+  /// `row`: if all of them are one row of plain motions.
+  bool passes(const PositionUse& use, const std::optional<execution::PlainEffects>& row, const Frontier& before,
+              const rules::HouseRules* rules) const;
+  /// Goes on past such lines, which have led to `after`.
+  void pass(const PositionUse& use, const std::optional<execution::PlainEffects>& row, const Frontier& after,
+            const rules::HouseRules* rules);
 };
 
 /// The change that turns `from` into `to`; nothing if they differ in more.

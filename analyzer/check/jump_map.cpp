@@ -1,6 +1,7 @@
 #include "analyzer/check/jump_map.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "interpreter/syntax/tree_store.h"
 #include "interpreter/text/characters.h"
+#include "interpreter/threads/side_by_side.h"
 
 namespace isocnc::check {
 
@@ -175,37 +177,82 @@ void each_event_in(std::string_view text, const std::function<void(const FlowEve
   });
 }
 
-/// The jumps of a text, found without parsing lines that hold none.
-static std::vector<JumpMap::Site> sites_in(std::string_view text) {
-  std::vector<JumpMap::Site> sites;
-  LineCounter counter(text);
+namespace {
+
+/// A jump, and where its line starts in the text.
+struct FoundJump {
+  std::size_t start = 0;
+  syntax::Jump jump;
+};
+
+}  // namespace
+
+/// Finds the jumps on some lines of a text, without parsing lines that hold none.
+static void find_jumps(std::string_view text, std::size_t begin, std::size_t end, std::vector<FoundJump>& found) {
   syntax::TreeStore store;
-  const char* const end = text.data() + text.size();
-  for (const char* p = text.data(); (p = next_o(p, end)) != end;) {
+  const char* const lines_end = text.data() + end;
+  for (const char* p = text.data() + begin; (p = next_o(p, lines_end)) != lines_end;) {
     if (!may_belong_to_goto(text, static_cast<std::size_t>(p - text.data()))) {
       ++p;
       continue;
     }
-    const char* begin = p;
-    while (begin != text.data() && !text::is_line_end(begin[-1])) --begin;
+    const char* line = p;
+    while (line != text.data() && !text::is_line_end(line[-1])) --line;
     store.clear();
-    p = store.append_line(begin, end);
-    each_event(store.tree(0, begin), [&](const FlowEvent& event) {
-      if (event.kind != FlowEvent::Kind::Jump) return;
-      sites.push_back({counter.line_of(static_cast<std::size_t>(begin - text.data())), event.jump});
+    p = store.append_line(line, lines_end);
+    each_event(store.tree(0, line), [&](const FlowEvent& event) {
+      if (event.kind == FlowEvent::Kind::Jump)
+        found.push_back({static_cast<std::size_t>(line - text.data()), event.jump});
     });
   }
-  return sites;
 }
 
-JumpMap::JumpMap(std::string_view text) : JumpMap(sites_in(text), nullptr) {
+/// The jumps of a text, in their order; threads share the search.
+static std::vector<FoundJump> find_jumps(std::string_view text, int jobs) {
+  constexpr std::size_t kPartBytes = 1024 * 1024;
+  const char* const end = text.data() + text.size();
+  // The lines of a part start in it.
+  const auto start_of = [&](std::size_t part) {
+    const std::size_t place = std::min(part * kPartBytes, text.size());
+    return place == 0 ? 0 : static_cast<std::size_t>(text::next_line(text.data() + place - 1, end) - text.data());
+  };
+  std::vector<std::vector<FoundJump>> found(text.size() / kPartBytes + 1);
+  std::atomic<std::size_t> next_part = 0;
+  threads::side_by_side(std::min(jobs, static_cast<int>(found.size())), [&] {
+    for (std::size_t part = 0; (part = next_part++) < found.size();)
+      find_jumps(text, start_of(part), start_of(part + 1), found[part]);
+  });
+  std::vector<FoundJump> all = std::move(found.front());
+  for (auto part = found.begin() + 1; part != found.end(); ++part) all.insert(all.end(), part->begin(), part->end());
+  return all;
+}
+
+/// The map of the jumps found in a text, without labels.
+JumpMap JumpMap::of_jumps_in(std::string_view text, int jobs) {
+  std::vector<Site> sites;
+  std::vector<std::size_t> starts;
+  LineCounter counter(text);
+  for (const FoundJump& found : find_jumps(text, jobs)) {
+    sites.push_back({counter.line_of(found.start), found.jump});
+    starts.push_back(found.start);
+  }
+  JumpMap map(std::move(sites), nullptr);
+  map.starts_ = std::move(starts);
+  return map;
+}
+
+JumpMap::JumpMap(std::string_view text, int jobs) : JumpMap(of_jumps_in(text, jobs)) {
   if (compares_registers()) read_labels(text);
 }
 
-JumpMap JumpMap::with_labels(std::string_view text) {
-  JumpMap map(sites_in(text), nullptr);
+JumpMap JumpMap::with_labels(std::string_view text, int jobs) {
+  JumpMap map = of_jumps_in(text, jobs);
   if (!map.empty()) map.read_labels(text);
   return map;
+}
+
+std::uint32_t JumpMap::count_above(std::size_t place) const {
+  return static_cast<std::uint32_t>(std::lower_bound(starts_.begin(), starts_.end(), place) - starts_.begin());
 }
 
 JumpMap::JumpMap(std::vector<Site> sites, const JumpMap* before)
@@ -359,6 +406,29 @@ bool FlowEvent::means_the_same(const FlowEvent& other) const {
 bool JumpMap::is_equivalent(std::uint32_t jump, const JumpMap& other, std::uint32_t other_jump) const {
   return jump_alike(sites_[jump].jump, other.sites_[other_jump].jump) && reads_[jump] == other.reads_[other_jump] &&
          target_of(jump) == other.target_of(other_jump);
+}
+
+// --- JumpCollector
+
+JumpCollector::JumpCollector(const JumpMap& before) : before_(&before) {
+  sites_.reserve(before.sites().size());
+  events_.reserve(2 * before.sites().size());
+}
+
+void JumpCollector::add(std::size_t line, const FlowEvent& event) {
+  if (event.kind == FlowEvent::Kind::Jump) sites_.push_back({line, event.jump});
+  JumpMap::add(events_, event);
+}
+
+void JumpCollector::add_jump(std::size_t line, const syntax::Jump& jump) {
+  sites_.push_back({line, jump});
+  JumpMap::add_place(events_, FlowEvent::Kind::Jump, jump.target);
+}
+
+JumpMap JumpCollector::finish() && {
+  JumpMap map(std::move(sites_), before_);
+  if (!map.empty()) map.follow(std::move(events_));
+  return map;
 }
 
 }  // namespace isocnc::check

@@ -101,9 +101,9 @@ class JumpMap {
   JumpMap() = default;
   /// The jumps of a text, found without parsing lines that hold none. Where no IF compares a register, labels are not
   /// read (knows_labels()): most programs have many, and nearly all of their jumps find theirs.
-  explicit JumpMap(std::string_view text);
+  explicit JumpMap(std::string_view text, int jobs = 1);
   /// The same, and labels are always read.
-  static JumpMap with_labels(std::string_view text);
+  static JumpMap with_labels(std::string_view text, int jobs = 1);
 
   bool empty() const { return sites_.empty(); }
   const std::vector<Site>& sites() const { return sites_; }
@@ -115,6 +115,8 @@ class JumpMap {
   const std::vector<std::uint64_t>& labels() const { return targets_; }
   /// The first jump on or below a line; the number of all jumps if there is none.
   std::size_t first_from(std::size_t line) const;
+  /// The number of jumps on the lines above a place of the text from which the map was made.
+  std::uint32_t count_above(std::size_t place) const;
 
   /// The registers that IFs compare.
   RegisterSet compared() const { return compared_; }
@@ -171,6 +173,7 @@ class JumpMap {
 
   /// The map of the jumps alone, without labels. `before`: of the program before an edit; may be null.
   JumpMap(std::vector<Site> sites, const JumpMap* before);
+  static JumpMap of_jumps_in(std::string_view text, int jobs);
   void find_constants(const JumpMap* before);
   void read_labels(std::string_view text);
   void follow(std::vector<ReducedEvent> events);
@@ -185,6 +188,7 @@ class JumpMap {
   }
 
   std::vector<Site> sites_;
+  std::vector<std::size_t> starts_;     // Where their lines start in the text; empty if not made from one.
   std::vector<std::uint64_t> targets_;  // Ascending.
   std::vector<std::uint64_t> filter_;   // 1,048,576 bits; empty without jumps.
   std::array<std::vector<double>, dialect::kRegisterCount + 1> constants_;
@@ -193,6 +197,29 @@ class JumpMap {
   bool knows_labels_ = true;
   std::vector<Target> targets_of_jumps_;
   std::unordered_set<std::uint64_t> repeated_;  // Labels defined twice.
+};
+
+/// Collects the jumps, labels and assignments of a program as its lines are read, and makes a JumpMap of them.
+class JumpCollector {
+ public:
+  JumpCollector() = default;
+  /// `before`: the jumps before an edit, of which much stays as it was; must outlive the collector.
+  explicit JumpCollector(const JumpMap& before);
+
+  /// Adds the next event; `line` counts from the start of the program. Labels that no jump names may be left out.
+  void add(std::size_t line, const FlowEvent& event);
+  /// The same for each kind of event.
+  void add_assignments(RegisterSet registers) { JumpMap::add_assignments(events_, registers); }
+  void add_label(std::uint64_t label) { JumpMap::add_place(events_, FlowEvent::Kind::Label, label); }
+  void add_jump(std::size_t line, const syntax::Jump& jump);
+
+  /// The map of all events added. It knows the labels.
+  JumpMap finish() &&;
+
+ private:
+  const JumpMap* before_ = nullptr;
+  std::vector<JumpMap::Site> sites_;
+  std::vector<JumpMap::ReducedEvent> events_;
 };
 
 }  // namespace isocnc::check

@@ -121,4 +121,7 @@ inline const char* skip_line_end(const char* p, const char* end) {
   return p + 1;
 }
 
+/// The start of the line after the one at `p`, or `end`.
+inline const char* next_line(const char* p, const char* end) { return skip_line_end(find_line_end(p, end), end); }
+
 }  // namespace isocnc::text

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "analyzer/check/jump_collector.h"
+#include "interpreter/text/characters.h"
 #include "tests/support/random.h"
 
 namespace isocnc::check {
@@ -145,6 +145,27 @@ TEST(JumpCollectorProperty, MakesTheMapOfTheText) {
     expect_same(from_events, JumpMap::with_labels(text), which);
     if (from_events.compares_registers()) expect_same(from_events, JumpMap(text), which);
     if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(JumpMapProperty, ThreadsFindTheSameJumps) {
+  for (const std::uint64_t seed : support::seeds(4)) {
+    Random random(seed);
+    std::string text;
+    while (text.size() < 2'500'000) {
+      text += random_program(random);
+      text += "IF V1=1 GOTO N1 (";  // A thread may begin amid the comment.
+      for (int i = random.between(1, 5'000); i > 0; --i) text += "GO";
+      text += random.one_in(2) ? ")\r" : ")\n";
+    }
+    const std::string which = fmt::format("seed {}", seed);
+    const JumpMap jumps(text, 3);
+    expect_same(JumpMap::with_labels(text), JumpMap::with_labels(text, 3), which);
+    const char* const end = text.data() + text.size();
+    std::size_t line = 0;
+    for (const char* p = text.data(); p != end; p = text::next_line(p, end), ++line) {
+      ASSERT_EQ(jumps.count_above(static_cast<std::size_t>(p - text.data())), jumps.first_from(line)) << which;
+    }
   }
 }
 

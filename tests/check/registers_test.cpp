@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "analyzer/check/jump_collector.h"
 #include "tests/support/random.h"
 
 namespace isocnc::check {
