@@ -158,16 +158,16 @@ std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Out
 
 std::size_t Checker::check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::size_t line_number,
                                        Outcome& outcome) {
-  return check_plain(
+  const std::size_t done = check_plain(
       trees.size() - first, line_number, outcome, [&](std::size_t index) { return trees.plain(first + index); },
       [&](std::size_t index) { return trees.changes_nothing(first + index); });
+  if (done == trees.size()) outcome.only_row = last_row_;
+  return done;
 }
 
 void Checker::check_all(const syntax::ChunkTrees& trees, Outcome& outcome) {
   for (std::size_t line = 0; line < trees.size(); ++line) {
-    const std::size_t done = check_plain_lines(trees.store(), line, line, outcome);
-    if (done == trees.size()) outcome.only_row = last_row_;
-    line += done;
+    line += check_plain_lines(trees.store(), line, line, outcome);
     if (line < trees.size()) check_any(trees[line], line, outcome);
   }
 }

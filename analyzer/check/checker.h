@@ -34,6 +34,8 @@ class Checker {
   /// check() for the line at which check_plain_lines() stopped.
   void check_any(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
 
+  const rules::CheckSetup& setup() const { return setup_; }
+
   Frontier frontier;
 
  private:

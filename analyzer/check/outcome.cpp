@@ -45,6 +45,34 @@ void Outcome::end_folds(FoldSet folds, std::size_t line) {
   ended_folds |= ending;
 }
 
+void Outcome::append(Outcome next, std::size_t first_line) {
+  const auto first_path = static_cast<std::int32_t>(paths.size());
+  for (LocatedFinding& located : next.findings) {
+    located.line += first_line;
+    if (located.path >= 0) located.path += first_path;
+    findings.push_back(located);
+  }
+  std::move(next.paths.begin(), next.paths.end(), std::back_inserter(paths));
+  for (const Label& label : next.labels)
+    labels.push_back({label.label, first_line + label.line, label.span, label.live});
+  live_jumps.insert(live_jumps.end(), next.live_jumps.begin(), next.live_jumps.end());
+  if (next.has_text) last_text_line = first_line + next.last_text_line;
+  has_text |= next.has_text;
+  assigned |= next.assigned;
+  may_assign |= next.may_assign;
+  positions.read |= static_cast<execution::AxisSet>(next.positions.read & ~positions.set);
+  positions.set |= next.positions.set;
+  positions.by_several |= next.positions.by_several;
+  positions.far |= next.positions.far;
+  centers.from_start |= next.centers.from_start;
+  centers.open |= next.centers.open;
+  if (next.leads_anywhere_from != kNowhere)
+    leads_anywhere_from = std::min(leads_anywhere_from, first_line + next.leads_anywhere_from);
+  misspelled_labels.insert(misspelled_labels.end(), next.misspelled_labels.begin(), next.misspelled_labels.end());
+  for (const auto& [line, folds] : next.fold_ends) fold_ends.push_back({first_line + line, folds});
+  ended_folds = next.ended_folds;
+}
+
 static Outcome::Look look_at(const LocatedFinding& located) {
   return {.line = static_cast<std::uint32_t>(located.line),
           .path = located.path,

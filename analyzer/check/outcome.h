@@ -68,7 +68,7 @@ struct Outcome {
   bool may_assign = false;   ///< Whether a line that has lost a letter may assign a register; no FlowEvent tells it.
   PositionUse positions;
   CenterUse centers;
-  std::optional<execution::PlainEffects> only_row;  ///< If all lines of a chunk are one row of plain motions.
+  std::optional<execution::PlainEffects> only_row;  ///< If the lines parsed together last are one row of plain motions.
   /// The first line with a jump that may lead anywhere below, as its label cannot be read or found (D63).
   std::size_t leads_anywhere_from = kNowhere;
   /// The numbers of lines whose line number has been reported as another word (N3O, 30, B30): jumps to them are not
@@ -86,6 +86,9 @@ struct Outcome {
   /// Appends a finding that may belong to a fold.
   void report(const LocatedFinding& located);
   void end_folds(FoldSet folds, std::size_t line);
+  /// Appends what was found in the lines below, numbered from 0 at line `first_line` of this outcome. What count() and
+  /// `only_row` say is that of the lines before.
+  void append(Outcome next, std::size_t first_line);
 };
 
 /// Whether a finding assumes that all ways to its line are known: W116, W117, and what is said of the spindle only
