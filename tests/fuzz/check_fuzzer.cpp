@@ -26,18 +26,18 @@ static void check_places(std::string_view text, const check::Report& report) {
   require(std::is_sorted(report.findings.begin(), report.findings.end(), by_place), "findings are sorted");
 }
 
-/// Repeats the text until it makes several batches, so that two jobs have something to share.
-static std::string several_batches(std::string_view text) {
-  constexpr std::size_t kBatches = 40 * 1024;
+/// Repeats the text until two jobs have several portions to share.
+static std::string several_portions(std::string_view text) {
+  constexpr std::size_t kPortions = 160 * 1024;
   std::string all(text);
-  while (!text.empty() && all.size() < kBatches) all.append("\n").append(text);
+  while (!text.empty() && all.size() < kPortions) all.append("\n").append(text);
   return all;
 }
 
 static void check_program(std::string_view text) {
   check_places(text, check::check_text(text, {}));
   if (text.size() % 64 != 0) return;  // Long texts are slow; some of them do.
-  const std::string longer = several_batches(text);
+  const std::string longer = several_portions(text);
   const auto alone = support::texts_of(check::check_text(longer, {}, 1));
   require(alone == support::texts_of(check::check_text(longer, {}, 2)), "two jobs give the same report as one");
 }
