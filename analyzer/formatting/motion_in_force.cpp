@@ -34,6 +34,11 @@ bool MotionInForce::lacks_words(const LineTree& line) const {
   });
 }
 
+bool MotionInForce::may_go_on(const LineTree& line) const {
+  constexpr dialect::LetterSet kArguments = dialect::kMotionLetters | dialect::letters("PQTS");
+  return follows_lack_ && !line.words.empty() && dialect::contains(kArguments, line.words.front().letter);
+}
+
 void MotionInForce::leave(const syntax::LineTree& line) {
   if (!line.words.empty()) follows_lack_ = lacks_words(line);
   if (paths_.live.empty()) return;

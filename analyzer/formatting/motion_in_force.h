@@ -25,6 +25,9 @@ class MotionInForce {
   /// Whether the block above may lack words that start this line: with a number or a motion of its own the line would
   /// be another block.
   bool follows_lack() const { return follows_lack_; }
+  /// Whether the line may be the rest of the block above, as it starts with a word which that may lack: with a number,
+  /// or another word at its start, it would be another block.
+  bool may_go_on(const syntax::LineTree& line) const;
 
  private:
   bool lacks_words(const syntax::LineTree& line) const;

@@ -28,7 +28,7 @@ ProgramStyle style_by(const configuration::Format& format) {
 }
 
 LinesFormatter::LinesFormatter(const ProgramStyle& style, const EachLine& each_line)
-    : motions_(style.motions), formatter_(style.line) {
+    : motions_(style.motions), orders_words_(style.line.word_order), formatter_(style.line) {
   if (!style.numbers) return;
   numbers_.emplace(each_line, *style.numbers);
   obstacle_ = numbers_->obstacle();
@@ -37,10 +37,11 @@ LinesFormatter::LinesFormatter(const ProgramStyle& style, const EachLine& each_l
 LineChange LinesFormatter::next(const LineTree& line) {
   LineChange change;
   if (numbers_) numbers_->change(line, change);
-  if (motions_ == MotionStyle::Keep) return change;
+  if (motions_ == MotionStyle::Keep && !orders_words_) return change;
   motion_.enter(line);
   change.motion = motion_change(line);
   change.motion_in_force = motion_.in_force();
+  change.keeps_order = motion_.may_go_on(line);
   motion_.leave(line);
   return change;
 }
@@ -48,7 +49,8 @@ LineChange LinesFormatter::next(const LineTree& line) {
 /// Changes a motion only if all paths to the line agree on it, it takes all the line's words, an arc has a circle, and
 /// the block above lacks nothing: other lines have findings, whose place would change.
 LineChange::MotionEdit LinesFormatter::motion_change(const LineTree& line) const {
-  if (motion_.follows_lack() || !motion_.is_known() || !line.findings.empty()) return LineChange::MotionEdit::Keep;
+  if (motions_ == MotionStyle::Keep || motion_.follows_lack() || !motion_.is_known() || !line.findings.empty())
+    return LineChange::MotionEdit::Keep;
   const dialect::GCode& in_force = *dialect::g_code(motion_.in_force());
   const bool writes = motions_ == MotionStyle::Write;
   const auto fits = [&](const Instruction& instruction) {

@@ -47,6 +47,7 @@ class LinesFormatter {
   syntax::LineChange::MotionEdit motion_change(const syntax::LineTree& line) const;
 
   MotionStyle motions_;
+  bool orders_words_ = false;
   syntax::Formatter formatter_;
   std::optional<Renumbering> numbers_;
   std::optional<Renumbering::RenumberingObstacle> obstacle_;

@@ -82,16 +82,10 @@ void Renumbering::number_label(std::size_t number, const LineTree& line) {
   label.number = is_now;
 }
 
-/// Whether a line starts with a word that the block above may lack: it may be the rest of that block.
-static bool starts_with_argument(const LineTree& line) {
-  constexpr dialect::LetterSet kArguments = dialect::kMotionLetters | dialect::letters("PQTS");
-  return !line.words.empty() && dialect::contains(kArguments, line.words.front().letter);
-}
-
 bool Renumbering::is_numbered(const LineTree& line) const {
   if (!line.findings.empty()) return false;
   if (line.has_label()) return true;
-  return style_.all_lines && !line.is_empty() && !(motion_.follows_lack() && starts_with_argument(line));
+  return style_.all_lines && !line.is_empty() && !motion_.may_go_on(line);
 }
 
 void Renumbering::change(const LineTree& line, syntax::LineChange& change) {

@@ -185,7 +185,8 @@ std::string_view Formatter::format(const LineTree& tree, const LineChange& chang
 /// Omits changes that would alter the meaning. New line numbers and labels must not be omitted, because other lines
 /// depend on them.
 std::string_view Formatter::rewrite(const LineTree& tree, const LineChange& change) {
-  if (write(tree, change, style_.word_order ? Order::Canonical : Order::AsWritten)) return written();
+  const bool orders = style_.word_order && !change.keeps_order;
+  if (write(tree, change, orders ? Order::Canonical : Order::AsWritten)) return written();
   LineChange less = change;
   less.motion = LineChange::MotionEdit::Keep;
   if (write(tree, change, Order::AsWritten) || write(tree, less, Order::AsWritten)) return written();

@@ -29,6 +29,7 @@ struct LineChange {
   std::optional<std::uint64_t> line_number;  ///< New N of the line, at most kMaxLineNumber.
   std::optional<std::uint64_t> target;       ///< New label after the line's GOTO.
   MotionEdit motion = MotionEdit::Keep;
+  bool keeps_order = false;          ///< Whether the words stay in their order, whatever the style.
   std::uint8_t motion_in_force = 0;  ///< Number of the G to write with MotionEdit::Write: 0 to 3.
 };
 

@@ -95,6 +95,14 @@ TEST(ProgramFormatter, LeavesTheWordsThatTheLineAboveLacks) {
             "N10 G1 X1 F5\nG1\nX2\nN20 X3\nN30 G2 X4\nY2 I1 J1\nN40 X6 R1\nM06\nT101001\nG1\nN50 M05\n");
 }
 
+/// Such words stay at the start of their line.
+TEST(ProgramFormatter, LeavesTheOrderOfWhatTheLineAboveLacks) {
+  const ProgramStyle ordered{.line = {.word_order = true}};
+  EXPECT_EQ(format("G02 X60 Y20 TH R10\nF5 G01 X80\nF6 G01 X90\n", ordered),
+            "G02 X60 Y20 TH R10\nF5 G01 X80\nG01 X90 F6\n");
+  EXPECT_EQ(format("G1\nY2 X1\nY4 X3\n", ordered), "G1\nY2 X1\nX3 Y4\n");
+}
+
 TEST(ProgramFormatter, LeavesMotionsThatCannotTakeWhatStandsThere) {
   const std::string text = "G1 X1 F5\nX2 I5\nI5\nA5 X1\n";
   EXPECT_EQ(format(text, kWrite), text);
