@@ -189,8 +189,9 @@ class ExecutingPass final : public SharedPass {
   }
 
  private:
-  /// After so many portions of which nothing could be taken over, nothing is executed ahead any more.
+  /// After so many portions in a row of which nothing could be taken over, so many are executed in order.
   static constexpr int kMostMisses = 4;
+  static constexpr int kInOrder = 16;
 
   /// So that what the first of all threads assume has a tool.
   void check_first_lines() {
@@ -214,17 +215,25 @@ class ExecutingPass final : public SharedPass {
     Portion& portion = portions_[slot];
     const bool is_ahead = portion.is_ahead();
     check(portion, portion.text());
-    if (is_ahead) misses_ = portion.taken_over() > 0 ? 0 : misses_ + 1;
+    if (!is_ahead) {
+      in_order_ = std::max(in_order_ - 1, 0);
+    } else if (portion.taken_over() > 0) {
+      misses_ = 0;
+    } else if (++misses_ == kMostMisses) {
+      misses_ = 0;
+      in_order_ = kInOrder;
+    }
   }
   bool may_go_ahead() override {
     assumed_ = checker().frontier;
-    return misses_ < kMostMisses;
+    return in_order_ == 0;
   }
 
   const Input& input_;
   std::vector<Portion> portions_;
   Frontier assumed_;
   int misses_ = 0;
+  int in_order_ = 0;  // Portions that are still to be executed in order.
 };
 
 /// Checks the text with a pass that suits it; returns what that has found.

@@ -129,6 +129,7 @@ std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Out
   if (house_) note_house_rules(*house_, use);
   const bool may_be_target = !jumps_.empty();
   const bool may_skip = run.may_run() && !(house_ && house_->watches_comments());
+  if (run.is_incremental()) use.far |= is_far(state.position);
   dialect::LetterSet named = 0;
   std::size_t done = 0;
   for (; done < count; ++done) {
@@ -363,8 +364,10 @@ class Checker::LineExecution final : public execution::Sink {
     if (house && (house->judges_plain_motions(group.house, group.state) ||
                   house->guard(group.house, group.state).stops_at(line_.words, line_.feed, group.state)))
       return false;
+    const geometry::Pose before = group.state.position;
     execution::PlainRun run(group.state, checker_.setup_.machine, checker_.suspects_centers_);
     if (!run.run(line_.plain())) return false;
+    outcome_.positions.far |= is_far(before);
     if (house) note_house_rules(*house, outcome_.positions);
     outcome_.centers.open |= run.met_open_center();
     dialect::LetterSet named = 0;
@@ -592,8 +595,10 @@ void Checker::branch(const LineTree& line, std::size_t line_number, Outcome& out
   }
 }
 
-/// Reports once (W191) that some paths are not followed from here on.
+/// Reports once (W191) that some paths are not followed from here on. Axes in which states differed may be unknown now,
+/// at 0, and whether they differ in more depends on that.
 void Checker::admit_reduction(const LineTree& line, std::size_t line_number, Outcome& outcome) {
+  outcome.positions.read |= execution::kAllAxes;
   if (frontier.reduced) return;
   frontier.reduced = true;
   syntax::Span span;

@@ -167,7 +167,7 @@ void note_line(const syntax::LineTree& line, const execution::State& before, con
     changes_frame |= is_g && (!code || code->is_frame());
   }
   if (!moves && !changes_frame) return;
-  use.far |= is_far(after.position);
+  use.far |= is_far(before.position) || is_far(after.position);
   using dialect::ModalGroup;
   const bool is_length_known = !after.is_in_doubt(ModalGroup::Units) && !after.is_in_doubt(ModalGroup::Distance);
   const bool is_clear = !is_judged && !changes_frame && before.unknown == after.unknown && after.motion() != nullptr &&

@@ -18,7 +18,7 @@ struct PositionUse {
   execution::AxisSet read = 0;  ///< Axes whose position before the lines affects findings or frames in them.
   execution::AxisSet set = 0;   ///< Axes whose position after the lines does not depend on that before.
   bool by_several = false;      ///< Whether there were several states, live or waiting: `set` may not hold for all.
-  bool far = false;             ///< Whether an axis was too far away for moves to add up exactly.
+  bool far = false;  ///< Whether an axis was, before or after a move, too far away for moves to add up exactly.
 };
 
 /// Evidence from the arcs of a range of lines on whether centers under G90 count from the start (D70). For the arcs of
