@@ -176,7 +176,7 @@ void LineParser::take_earlier_words(Instruction& g) {
   Instruction& earlier = taker();
   bool reported = false;
   for (std::uint16_t i = earlier.begin; i < earlier.end; ++i) {
-    if (word(i).owner != earlier.number) continue;
+    if (word(i).owner != earlier.number || word(i).letter == kError) continue;  // P1 M3=13 G01 X10
     if (!reported && !word(i).has(Word::kMissing | Word::kReported))
       report("stray-argument/before-its-g"_cause, word(i).span(), {}, word(g.command).span());
     reported = true;

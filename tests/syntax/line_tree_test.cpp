@@ -188,6 +188,17 @@ INSTANTIATE_TEST_SUITE_P(
                     TreeCase{"V1=2 V2=3 X1", "V1(=2) V2(=3) (X1)"},
                     TreeCase{"M100 P1=2.5 P2=-3", "M100(P1 =2.5 P2 =-3)"}));
 
+/// Who collects the arguments of a G by their letters relies on that.
+TEST(LineTree, ArgumentsOfAGAreLetters) {
+  const ParsedLine line("P20 M100 =5 G00 X7");
+  const LineTree tree = line.tree();
+  for (const Instruction& g : tree.instructions) {
+    if (g.kind != InstructionKind::G) continue;
+    for (const Word& word : tree.words) EXPECT_FALSE(word.owner == g.number && word.letter == kError);
+  }
+  EXPECT_EQ(tree.words.front().letter, kError);
+}
+
 TEST(LineTree, UserFunctionsTakeTwentyParameters) {
   std::string text = "M100";
   for (int i = 1; i <= 20; ++i) text += fmt::format(" P{}={}.5", i, i);
