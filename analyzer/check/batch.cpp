@@ -110,7 +110,6 @@ std::size_t Portion::check(Checker& checker, std::size_t line, Outcome& outcome)
     ++executed_;
     ++i;
   }
-  ahead_.clear();
   return line;
 }
 

@@ -114,5 +114,38 @@ TEST(Portion, ExecutedAheadGivesWhatItGivesInOrder) {
   EXPECT_GT(executed, support::often(150));
 }
 
+/// A portion of 40 KB in three batches, below lines that set a speed and a feed.
+TEST(Portion, IsTakenOverWhereTheLinesAboveSetWhatDiffers) {
+  const std::string above = "S9000 M03\nG00 X0 Y0 Z5\nG01 X1 F2000\n";
+  std::string lines;
+  while (lines.size() < 40'000) lines += "S9500\nX2 Y2\nX1 Y1\n";
+  const std::string program = "M06 T101001\n" + above + lines;
+  const char* const end = program.data() + program.size();
+  const std::string_view part = std::string_view(program).substr(program.size() - lines.size());
+  const rules::CheckSetup setup;
+  const JumpMap jumps;
+  Checker in_order(setup, jumps);
+  Batch top;
+  top.parse(std::string_view(program).substr(0, program.size() - lines.size()), end);
+  Outcome outcome;
+  std::size_t line = 0;
+  line = top.check(in_order, line, outcome);
+  for (const bool knows_above : {true, false}) {
+    Checker joined(setup, jumps);
+    joined.frontier = in_order.frontier;
+    Checker ahead(setup, jumps);
+    Portion portion;
+    portion.start(part, end);
+    portion.check_ahead(ahead, knows_above ? std::string_view(program).substr(0, program.size() - lines.size()) : "");
+    EXPECT_TRUE(portion.is_ahead());
+    Outcome of_portion;
+    portion.check(joined, line, of_portion);
+    EXPECT_EQ(portion.executed(), knows_above ? 0u : 3u);
+    EXPECT_EQ(portion.taken_over(), knows_above ? 3u : 0u);
+    portion.start(part, end);
+    EXPECT_FALSE(portion.is_ahead());
+  }
+}
+
 }  // namespace
 }  // namespace isocnc::check

@@ -52,6 +52,23 @@ TEST(CheckTextProperty, JobsAgreeWhereTheProgramEndsEarly) {
   for (const int jobs : {2, 3, 8}) EXPECT_EQ(support::texts_of(check(text, jobs)), expected) << "jobs " << jobs;
 }
 
+TEST(CheckTextProperty, TellsHowFarItIs) {
+  std::string text = "M06 T101001\n";
+  while (text.size() < 600'000) text += "G00 X1\nG00 X2\n";
+  for (const std::string& program : {text, "IF VGPL=1 GOTO N5\nIF VGPL=2 GOTO N5\n" + text + "N5\n"})
+    for (const int jobs : {1, 3}) {
+      std::size_t bytes = 0;
+      int times = 0;
+      check_text(program, {}, jobs, [&](std::size_t now) {
+        EXPECT_GT(now, bytes);
+        bytes = now;
+        ++times;
+      });
+      EXPECT_EQ(bytes, program.size()) << jobs;
+      EXPECT_GT(times, 5) << jobs;
+    }
+}
+
 TEST(CheckTextProperty, LineEndsChangeNothing) {
   for (const std::uint64_t seed : support::seeds(600)) {
     Random random(seed);
