@@ -158,6 +158,7 @@ def measure_kind(arguments, kind, table):
     uri = f"file:///bench/{kind}.iso"
     start = server.open(uri, text)
     opened = server.wait_for_diagnostics(uri, 1) - start
+    time.sleep(0.5)  # Until the memory of the message has been given back.
     size = (server.anonymous_bytes() - before - len(text)) / len(lines)
     edits = edit_times(server, uri, lines, arguments.edits)
     requests = request_times(server, uri, lines, lambda done: done < arguments.edits)
