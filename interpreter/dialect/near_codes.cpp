@@ -128,9 +128,10 @@ bool is_of_other_controls(std::string_view number, LetterSet arguments) {
 
 GCodeSet codes_near(std::string_view number) {
   const Digits digits(number);
-  const std::size_t count = digits.count();
+  std::size_t count = digits.count();
   if (count == 0 || count > Digits::kMaxKept) return 0;
   const int value = digits.value_of(count);
+  if (count > 2 && value < 100) count = 2;  // G042 is what G42 is.
   GCodeSet near = code_spelled(value, count);
   int unit = 1;
   for (std::size_t place = 0; place <= count; ++place, unit *= 10) {
