@@ -1,6 +1,7 @@
 #include "analyzer/formatting/motion_in_force.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace isocnc::formatting {
 
@@ -21,7 +22,8 @@ bool is_sound(const LineTree& line, const Instruction& motion, const dialect::GC
   for (std::size_t i = motion.begin; i < motion.end; ++i)
     if (const syntax::Word& word = line.words[i]; word.owner == motion.number && word.letter != 'G')
       given |= dialect::letter_bit(word.letter);
-  const bool has_circle = !code.is_arc() || (given & dialect::kCircleLetters) != 0;
+  const bool has_center = std::popcount(given & dialect::kCenterLetters) >= 2;
+  const bool has_circle = !code.is_arc() || has_center || dialect::contains(given, 'R');
   return (given & dialect::kCoordinateLetters) != 0 && (given & ~code.arguments) == 0 && has_circle;
 }
 

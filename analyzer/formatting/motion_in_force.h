@@ -46,7 +46,7 @@ class MotionInForce {
   bool follows_lack_ = false;
 };
 
-/// Whether a motion has coordinates, an arc its circle, and neither has words that it does not take.
+/// Whether a motion has coordinates, an arc R or two of I J K, and neither has words that it does not take.
 bool is_sound(const syntax::LineTree& line, const syntax::Instruction& motion, const dialect::GCode& code);
 
 }  // namespace isocnc::formatting

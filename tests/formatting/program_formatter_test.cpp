@@ -90,6 +90,8 @@ TEST(ProgramFormatter, LeavesTheWordsThatTheLineAboveLacks) {
             "G1 F5\nX1\nX2\nG2 X4\n; (1)\nY2 I1 J1\nG02 X6 R1\n");
   EXPECT_EQ(format("G1 X1 F5\nG1\nG1 X2\nG1 X3\nG2 X4\nG2 Y2 I1 J1\nG2 X6 R1\n", kFold),
             "G1 X1 F5\nG1\nG1 X2\nX3\nG2 X4\nG2 Y2 I1 J1\nX6 R1\n");
+  EXPECT_EQ(format("G2 X4 Y0 I2 J0 F5\nX8 I6\nJ0 Y0\nX12 R2\nX16 R2\n", kWrite),
+            "G2 X4 Y0 I2 J0 F5\nX8 I6\nJ0 Y0\nX12 R2\nG02 X16 R2\n");
   const ProgramStyle numbered{.numbers = NumberStyle{.all_lines = true}};
   EXPECT_EQ(format("G1 X1 F5\nG1\nX2\nX3\nG2 X4\nY2 I1 J1\nX6 R1\nM06\nT101001\nG1\nM05\n", numbered),
             "N10 G1 X1 F5\nG1\nX2\nN20 X3\nN30 G2 X4\nY2 I1 J1\nN40 X6 R1\nM06\nT101001\nG1\nN50 M05\n");
