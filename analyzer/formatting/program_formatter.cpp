@@ -36,12 +36,12 @@ LinesFormatter::LinesFormatter(const ProgramStyle& style, const EachLine& each_l
 
 LineChange LinesFormatter::next(const LineTree& line) {
   LineChange change;
-  if (numbers_) numbers_->change(line, change);
-  if (motions_ == MotionStyle::Keep && !orders_words_) return change;
+  if (motions_ == MotionStyle::Keep && !orders_words_ && !numbers_) return change;
   motion_.enter(line);
   change.motion = motion_change(line);
   change.motion_in_force = motion_.in_force();
   change.keeps_order = motion_.may_go_on(line);
+  if (numbers_) numbers_->change(line, change.keeps_order, change);
   motion_.leave(line);
   return change;
 }

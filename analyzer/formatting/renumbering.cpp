@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "analyzer/formatting/motion_in_force.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/syntax/each_tree.h"
 #include "interpreter/text/characters.h"
@@ -43,7 +44,13 @@ Renumbering::Renumbering(const EachLine& each_line, const NumberStyle& style) : 
   std::size_t number = 0;
   each_line([&](const LineTree& line) { read_jump(number++, line); });
   number = 0;
-  if (!obstacle_) each_line([&](const LineTree& line) { number_label(number++, line); });
+  MotionInForce motion;
+  const auto number_next = [&](const LineTree& line) {
+    motion.enter(line);
+    number_label(number++, line, motion.may_go_on(line));
+    motion.leave(line);
+  };
+  if (!obstacle_) each_line(number_next);
   if (obstacle_) return;
   for (const auto& [label, jump] : labels_)
     if (!jump.is_defined && (!obstacle_ || jump.jump_line < obstacle_->line)) {
@@ -51,7 +58,6 @@ Renumbering::Renumbering(const EachLine& each_line, const NumberStyle& style) : 
       refuse(RenumberingObstacle::Kind::LabelMissing, jump.jump_line, jump.text);
     }
   next_ = style.start;
-  motion_ = {};
 }
 
 void Renumbering::refuse(RenumberingObstacle::Kind kind, std::size_t line, std::string label) {
@@ -66,11 +72,8 @@ void Renumbering::read_jump(std::size_t number, const LineTree& line) {
   labels_.try_emplace(line.jump->target, NumberedLabel{label_text(line.text_of(line.jump->target_span)), number});
 }
 
-void Renumbering::number_label(std::size_t number, const LineTree& line) {
-  motion_.enter(line);
-  const bool has_number = is_numbered(line);
-  motion_.leave(line);
-  if (!has_number) return;
+void Renumbering::number_label(std::size_t number, const LineTree& line, bool may_go_on) {
+  if (!is_numbered(line, may_go_on)) return;
   if (next_ > syntax::kMaxLineNumber) return refuse(RenumberingObstacle::Kind::TooManyDigits, number);
   const std::uint64_t is_now = next_;
   next_ += style_.step;
@@ -82,19 +85,17 @@ void Renumbering::number_label(std::size_t number, const LineTree& line) {
   label.number = is_now;
 }
 
-bool Renumbering::is_numbered(const LineTree& line) const {
+bool Renumbering::is_numbered(const LineTree& line, bool may_go_on) const {
   if (!line.findings.empty()) return false;
   if (line.has_label()) return true;
-  return style_.all_lines && !line.is_empty() && !motion_.may_go_on(line);
+  return style_.all_lines && !line.is_empty() && !may_go_on;
 }
 
-void Renumbering::change(const LineTree& line, syntax::LineChange& change) {
-  motion_.enter(line);
-  if (is_numbered(line)) {
+void Renumbering::change(const LineTree& line, bool may_go_on, syntax::LineChange& change) {
+  if (is_numbered(line, may_go_on)) {
     change.line_number = next_;
     next_ += style_.step;
   }
-  motion_.leave(line);
   if (line.jump != nullptr && line.jump->has_target) change.target = labels_.at(line.jump->target).number;
 }
 

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "analyzer/formatting/motion_in_force.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/syntax/formatter.h"
 
@@ -46,7 +45,8 @@ class Renumbering {
 
   const std::optional<RenumberingObstacle>& obstacle() const { return obstacle_; }
   /// Adds the change of the next line's numbers; needs all lines, in order, and no obstacle.
-  void change(const syntax::LineTree& line, syntax::LineChange& change);
+  /// `may_go_on`: as MotionInForce::may_go_on().
+  void change(const syntax::LineTree& line, bool may_go_on, syntax::LineChange& change);
 
  private:
   struct NumberedLabel {
@@ -57,13 +57,12 @@ class Renumbering {
   };
 
   void read_jump(std::size_t number, const syntax::LineTree& line);
-  void number_label(std::size_t number, const syntax::LineTree& line);
-  bool is_numbered(const syntax::LineTree& line) const;
+  void number_label(std::size_t number, const syntax::LineTree& line, bool may_go_on);
+  bool is_numbered(const syntax::LineTree& line, bool may_go_on) const;
   void refuse(RenumberingObstacle::Kind kind, std::size_t line, std::string label = {});
 
   NumberStyle style_;
   std::uint64_t next_;
-  MotionInForce motion_;
   std::unordered_map<std::uint64_t, NumberedLabel> labels_;  // The labels that jumps name.
   std::optional<RenumberingObstacle> obstacle_;
 };
