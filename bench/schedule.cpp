@@ -32,9 +32,7 @@ double milliseconds() { return 1000.0 * static_cast<double>(std::clock()) / CLOC
 
 /// The first part of a text, of whole lines.
 std::string_view cut(std::string_view& text, std::ptrdiff_t size) {
-  const char* const end = text.data() + text.size();
-  const char* const next = text::next_line(text.data() + std::min(size, end - text.data()), end);
-  const std::string_view part(text.data(), static_cast<std::size_t>(next - text.data()));
+  const std::string_view part = text::whole_lines(text.data(), size, text.data() + text.size());
   text.remove_prefix(part.size());
   return part;
 }

@@ -42,9 +42,7 @@ std::ptrdiff_t Portion::bytes_for(std::size_t text, int threads) {
 }
 
 std::string_view Portion::batch_at(const char* begin) const {
-  const char* const end = text_.data() + text_.size();
-  const char* const batch_end = text::next_line(begin + std::min(kBatchBytes, end - begin), end);
-  return {begin, static_cast<std::size_t>(batch_end - begin)};
+  return text::whole_lines(begin, kBatchBytes, text_.data() + text_.size());
 }
 
 void Portion::start(std::string_view text, const char* end) {

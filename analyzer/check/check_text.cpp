@@ -46,8 +46,9 @@ class Pass {
   bool is_all_taken() const { return next_ == end_; }
   /// The next lines of the text, at least so many bytes.
   std::string_view take(std::ptrdiff_t bytes) {
-    const char* const begin = std::exchange(next_, text::next_line(next_ + std::min(bytes, end_ - next_), end_));
-    return {begin, static_cast<std::size_t>(next_ - begin)};
+    const std::string_view lines = text::whole_lines(next_, bytes, end_);
+    next_ += lines.size();
+    return lines;
   }
   /// The lines directly above a place, at most so many bytes.
   std::string_view lines_above(const char* place, std::ptrdiff_t bytes) const {

@@ -25,7 +25,7 @@ class TextLineReader {
   explicit TextLineReader(std::string_view text) : rest_(text) {}
   std::string_view next() {
     const char* const end = rest_.data() + rest_.size();
-    const char* const after = text::skip_line_end(text::find_line_end(rest_.data(), end), end);
+    const char* const after = text::next_line(rest_.data(), end);
     const std::string_view line = rest_.substr(0, static_cast<std::size_t>(after - rest_.data()));
     rest_.remove_prefix(line.size());
     return line;

@@ -14,7 +14,7 @@ namespace isocnc::fixing {
 /// The first line of `text` with its end.
 static std::string_view first_line(std::string_view text) {
   const char* const end = text.data() + text.size();
-  const char* const after = text::skip_line_end(text::find_line_end(text.data(), end), end);
+  const char* const after = text::next_line(text.data(), end);
   return text.substr(0, static_cast<std::size_t>(after - text.data()));
 }
 

@@ -11,15 +11,10 @@
 
 namespace isocnc::debuggee {
 
-/// The start of the line after the one at `p`.
-static const char* next_line(const char* p, const char* end) {
-  return text::skip_line_end(text::find_line_end(p, end), end);
-}
-
 ProgramText::ProgramText(std::string text) : text_(std::move(text)) {
   const char* const begin = text_.data();
   const char* const end = begin + text_.size();
-  for (const char* p = begin; p != end; p = next_line(p, end), ++line_count_)
+  for (const char* p = begin; p != end; p = text::next_line(p, end), ++line_count_)
     if (line_count_ % kStride == 0) offsets_.push_back(static_cast<std::size_t>(p - begin));
 }
 
@@ -38,7 +33,7 @@ std::size_t ProgramText::offset_of(std::size_t line) const {
   const char* const end = begin + text_.size();
   if (line >= line_count_) return text_.size();
   const char* p = begin + offsets_[line / kStride];
-  for (std::size_t i = 0; i < line % kStride; ++i) p = next_line(p, end);
+  for (std::size_t i = 0; i < line % kStride; ++i) p = text::next_line(p, end);
   return static_cast<std::size_t>(p - begin);
 }
 

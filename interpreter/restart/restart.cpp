@@ -76,7 +76,7 @@ LineStart find_line(std::string_view text, std::size_t line) {
   const char* p = text.data();
   const char* const end = text.data() + text.size();
   std::size_t count = 0;
-  for (; count < line && p != end; ++count) p = text::skip_line_end(text::find_line_end(p, end), end);
+  for (; count < line && p != end; ++count) p = text::next_line(p, end);
   return {static_cast<std::size_t>(p - text.data()), count, p != end};
 }
 

@@ -159,7 +159,7 @@ void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_
   const char* p = text.data();
   const char* const end = text.data() + text.size();
   while (p != end) {
-    const char* const next = text::skip_line_end(text::find_line_end(p, end), end);
+    const char* const next = text::next_line(p, end);
     maker.add({p, static_cast<std::size_t>(next - p)});
     p = next;
   }

@@ -12,7 +12,7 @@ std::string_view LineFinder::line(std::size_t index) {
   if (found_ && index == at_) return line_;
   const char* p = rest_.data();
   const char* const end = rest_.data() + rest_.size();
-  for (; at_ < index; ++at_) p = text::skip_line_end(text::find_line_end(p, end), end);
+  for (; at_ < index; ++at_) p = text::next_line(p, end);
   rest_ = {p, static_cast<std::size_t>(end - p)};
   line_ = {p, static_cast<std::size_t>(text::find_line_end(p, end) - p)};
   found_ = true;

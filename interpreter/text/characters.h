@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -123,5 +124,9 @@ inline const char* skip_line_end(const char* p, const char* end) {
 
 /// The start of the line after the one at `p`, or `end`.
 inline const char* next_line(const char* p, const char* end) { return skip_line_end(find_line_end(p, end), end); }
+/// Whole lines from the line start `p` on: at least so many bytes, or all up to `end`.
+inline std::string_view whole_lines(const char* p, std::ptrdiff_t bytes, const char* end) {
+  return {p, static_cast<std::size_t>(next_line(p + std::min(bytes, end - p), end) - p)};
+}
 
 }  // namespace isocnc::text

@@ -97,8 +97,7 @@ static DescribedFile described_in(std::string_view text, const fs::path& file) {
 static std::size_t offset_of(std::string_view text, const configuration::DescriptionPlace& place) {
   const char* const end = text.data() + text.size();
   const char* begin = text.data();
-  for (std::size_t line = 1; line < place.shown.line; ++line)
-    begin = text::skip_line_end(text::find_line_end(begin, end), end);
+  for (std::size_t line = 1; line < place.shown.line; ++line) begin = text::next_line(begin, end);
   return static_cast<std::size_t>(begin - text.data()) + place.byte;
 }
 

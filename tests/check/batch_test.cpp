@@ -42,10 +42,8 @@ std::string program_of_long_rows(Random& random, std::size_t size) {
 }
 
 /// The first part of a text, of whole lines.
-std::string_view cut(std::string_view& text, std::size_t size) {
-  const char* const end = text.data() + text.size();
-  const char* const next = text::next_line(text.data() + std::min(size, text.size()), end);
-  const std::string_view part = text.substr(0, static_cast<std::size_t>(next - text.data()));
+std::string_view cut(std::string_view& text, std::ptrdiff_t size) {
+  const std::string_view part = text::whole_lines(text.data(), size, text.data() + text.size());
   text.remove_prefix(part.size());
   return part;
 }
@@ -87,7 +85,7 @@ TEST(Portion, ExecutedAheadGivesWhatItGivesInOrder) {
     std::string_view rest = program;
     std::string_view above;
     while (!rest.empty()) {
-      const std::string_view part = cut(rest, 1'000 * static_cast<std::size_t>(random.between(1, 60)));
+      const std::string_view part = cut(rest, 1'000 * random.between(1, 60));
       Checker ahead(setup, jumps);
       ahead.frontier = frontiers[frontiers.size() - static_cast<std::size_t>(random.between(
                                                         1, std::min(4, static_cast<int>(frontiers.size()))))];
